@@ -1,0 +1,5 @@
+//! Shapes: triangle meshes, the ray-triangle test, and reading them from Wavefront OBJ.
+
+mod mesh;
+
+pub use mesh::TriangleMesh;
