@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use glam::{Vec2, Vec3};
 
-use super::{BxDF, BxdfFlags, BxdfSample, Lobe};
+use super::{BxDF, BxdfFlags, BxdfSample, LambertianReflection, Lobe};
 use crate::Spectrum;
 use crate::geometry::Frame;
 use crate::geometry::float::ONE_MINUS_EPSILON;
@@ -44,7 +44,9 @@ pub struct Bsdf<'a> {
     ng: Vec3,
     eta: f32,
     count: usize,
-    lobes: [Option<Lobe<'a>>; MAX_LOBES],
+    /// The kind of each lobe, so that a question need not ask the lobes that it is not for.
+    kinds: [BxdfFlags; MAX_LOBES],
+    lobes: [Lobe<'a>; MAX_LOBES],
     rejected: Cell<u32>,
 }
 
@@ -55,14 +57,27 @@ impl<'a> Bsdf<'a> {
     /// relative index of refraction over the boundary, 1 for what light does not pass.
     #[inline]
     pub fn new(frame: Frame, ng: Vec3, eta: f32) -> Self {
-        Self { frame, ng, eta, count: 0, lobes: [None; MAX_LOBES], rejected: Cell::new(0) }
+        const UNUSED: Lobe = Lobe::Lambertian(LambertianReflection::new(Spectrum::BLACK));
+        Self {
+            frame,
+            ng,
+            eta,
+            count: 0,
+            kinds: [BxdfFlags::empty(); MAX_LOBES],
+            lobes: [UNUSED; MAX_LOBES],
+            rejected: Cell::new(0),
+        }
     }
 
     /// Adds a lobe. Returns whether there was room for it: a ninth lobe is left out.
     #[inline]
     pub fn add(&mut self, lobe: impl Into<Lobe<'a>>) -> bool {
-        let Some(place) = self.lobes.get_mut(self.count) else { return false };
-        *place = Some(lobe.into());
+        if self.count == MAX_LOBES {
+            return false;
+        }
+        let lobe = lobe.into();
+        self.kinds[self.count] = lobe.flags();
+        self.lobes[self.count] = lobe;
         self.count += 1;
         true
     }
@@ -113,15 +128,15 @@ impl<'a> Bsdf<'a> {
         // Choose which lobe to sample, and stretch what is left of u.x over [0, 1) again.
         let scaled = u.x * matching as f32;
         let chosen = (scaled as usize).min(matching - 1);
-        let lobe = self.matching(flags).nth(chosen)?;
+        let (lobe, kind) = self.matching(flags).nth(chosen)?;
         let u = Vec2::new((scaled - chosen as f32).min(ONE_MINUS_EPSILON), u.y);
         let mut sample = lobe.sample_f(local_wo, u)?;
         let local_wi = sample.wi;
         sample.wi = self.frame.to_world(local_wi);
-        if sample.flags.contains(BxdfFlags::SPECULAR) {
+        if kind.contains(BxdfFlags::SPECULAR) {
             sample.pdf /= matching as f32;
         } else {
-            sample.pdf = self.mean_pdf(local_wo, local_wi, flags, matching);
+            sample.pdf = self.mean_pdf(local_wo, local_wi, flags);
             sample.f = self.sum(local_wo, local_wi, self.side(wo, sample.wi), flags);
         }
         sample.f = self.guarded(sample.f);
@@ -132,12 +147,11 @@ impl<'a> Bsdf<'a> {
     /// lobes of the kinds in `flags`.
     #[inline]
     pub fn pdf(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> f32 {
-        let matching = self.num_components(flags);
         let local_wo = self.frame.to_local(wo);
-        if matching == 0 || local_wo.z == 0.0 {
+        if local_wo.z == 0.0 {
             return 0.0;
         }
-        let pdf = self.mean_pdf(local_wo, self.frame.to_local(wi), flags, matching);
+        let pdf = self.mean_pdf(local_wo, self.frame.to_local(wi), flags);
         if pdf.is_finite() && pdf >= 0.0 { pdf } else { 0.0 }
     }
 
@@ -147,12 +161,12 @@ impl<'a> Bsdf<'a> {
         if wo.z == 0.0 {
             return Spectrum::BLACK;
         }
-        self.guarded(self.matching(flags).map(|lobe| lobe.rho_hd(wo, u)).sum())
+        self.guarded(self.matching(flags).map(|(lobe, _)| lobe.rho_hd(wo, u)).sum())
     }
 
     /// The share of a uniform light that leaves at all: see [`BxDF::rho_hh`].
     pub fn rho_hh(&self, u1: &[Vec2], u2: &[Vec2], flags: BxdfFlags) -> Spectrum {
-        self.guarded(self.matching(flags).map(|lobe| lobe.rho_hh(u1, u2)).sum())
+        self.guarded(self.matching(flags).map(|(lobe, _)| lobe.rho_hh(u1, u2)).sum())
     }
 
     /// Reflection or transmission, by the geometric normal.
@@ -167,18 +181,30 @@ impl<'a> Bsdf<'a> {
 
     #[inline]
     fn sum(&self, wo: Vec3, wi: Vec3, side: BxdfFlags, flags: BxdfFlags) -> Spectrum {
-        let of_side = |lobe: &&Lobe| lobe.flags().intersects(side);
-        self.matching(flags).filter(of_side).map(|lobe| lobe.f(wo, wi)).sum()
+        let mut f = Spectrum::BLACK;
+        for (lobe, kind) in self.matching(flags) {
+            if kind.intersects(side) {
+                f += lobe.f(wo, wi);
+            }
+        }
+        f
     }
 
     #[inline]
-    fn mean_pdf(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags, matching: usize) -> f32 {
-        self.matching(flags).map(|lobe| lobe.pdf(wo, wi)).sum::<f32>() / matching as f32
+    fn mean_pdf(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> f32 {
+        let (mut sum, mut count) = (0.0, 0);
+        for (lobe, _) in self.matching(flags) {
+            sum += lobe.pdf(wo, wi);
+            count += 1;
+        }
+        if count > 1 { sum / count as f32 } else { sum }
     }
 
+    /// The lobes of the kinds in `flags`, each with its kind.
     #[inline]
-    fn matching(&self, flags: BxdfFlags) -> impl Iterator<Item = &Lobe<'a>> {
-        self.lobes[..self.count].iter().flatten().filter(move |lobe| lobe.matches(flags))
+    fn matching(&self, flags: BxdfFlags) -> impl Iterator<Item = (&Lobe<'a>, BxdfFlags)> {
+        let kinds = self.kinds.iter().copied().take(self.count);
+        self.lobes.iter().zip(kinds).filter(move |&(_, kind)| flags.contains(kind))
     }
 
     #[inline]

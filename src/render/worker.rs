@@ -79,7 +79,11 @@ impl<'a> Worker<'a> {
     fn add_first_hits(&mut self) {
         let wave = &mut self.wave;
         for ((id, ray), hit) in wave.ids.iter().zip(&wave.rays).zip(&wave.hits) {
-            let Some((mut si, material)) = self.scene.interaction(ray, hit) else { continue };
+            if !hit.is_hit() {
+                continue;
+            }
+            let mut si = self.scene.interaction(ray, hit);
+            let material = self.scene.material(hit);
             let bsdf =
                 material.compute_scattering(&mut si, &wave.arena, TransportMode::Radiance, true);
             let albedo = bsdf.rho_hd(si.wo(), &self.rho_points, BxdfFlags::all());

@@ -108,16 +108,22 @@ impl Scene {
         self.build_seconds
     }
 
-    /// What is known about a hit of `ray`, and the material there. `None` for a miss.
+    /// What is known about a hit of `ray`.
+    ///
+    /// # Panics
+    /// If `hit` is none of this scene's: a miss, or one from elsewhere.
     #[inline]
-    pub fn interaction(
-        &self,
-        ray: &Ray,
-        hit: &Hit,
-    ) -> Option<(SurfaceInteraction<'_>, &dyn Material)> {
-        let shape = self.shapes.get(hit.shape as usize)?;
+    pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction<'_> {
         let mesh = &self.meshes[hit.shape as usize];
-        let si = SurfaceInteraction::on_triangle(mesh, hit.triangle as usize, hit.b, -ray.d);
-        Some((si, &*shape.material))
+        SurfaceInteraction::on_triangle(mesh, hit.triangle as usize, hit.b, -ray.d)
+    }
+
+    /// What the surface is made of at a hit.
+    ///
+    /// # Panics
+    /// Like [`Scene::interaction`].
+    #[inline]
+    pub fn material(&self, hit: &Hit) -> &dyn Material {
+        &*self.shapes[hit.shape as usize].material
     }
 }

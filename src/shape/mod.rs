@@ -6,4 +6,4 @@ mod triangle;
 
 pub use check::MeshError;
 pub use mesh::TriangleMesh;
-pub use triangle::{ShearedRay, TriangleHit};
+pub use triangle::{ShearedRay, TriangleHit, triangle_normal};
