@@ -344,7 +344,6 @@ fn a_path_that_cannot_be_written_is_refused_early_and_late() {
     let mut permissions = fs::metadata(&locked).unwrap().permissions();
     permissions.set_readonly(true);
     fs::set_permissions(&locked, permissions).unwrap();
-    let before = folder.names();
 
     let long = folder.file(&"x".repeat(300));
     let (none, under_plain) = (folder.file("none"), plain.clone());
@@ -360,8 +359,11 @@ fn a_path_that_cannot_be_written_is_refused_early_and_late() {
         let reason = "File name too long (os error 36); choose a shorter name".to_owned();
         cases.push((long, reason));
         let reason = "it is not an ordinary file; give the name of a new file".to_owned();
-        cases.push((PathBuf::from("/dev/null"), reason));
+        let pipe = folder.file("pipe");
+        assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        cases.push((pipe, reason));
     }
+    let before = folder.names();
     for (path, reason) in cases {
         let expected = format!("cannot write `{}`: {reason}", path.display());
         assert_eq!(message(check_writable(&path)), expected);
