@@ -469,6 +469,19 @@ fn a_reader_never_sees_half_a_file() {
     assert_eq!(folder.names(), ["x.png"]);
 }
 
+/// What a killed process of the same number left behind is neither used nor removed.
+#[test]
+fn other_temporary_files_are_left_alone() {
+    let folder = Folder::new("stale");
+    let stale = |count: usize| folder.file(&format!(".lobe-{}-{count}.tmp", std::process::id()));
+    for count in 0..1000 {
+        fs::write(stale(count), "stale").unwrap();
+    }
+    write_png(folder.file("x.png"), &ramp(), Display::Srgb, &metadata()).unwrap();
+    assert_eq!(read_png(&folder.file("x.png")).size, UVec2::new(40, 30));
+    assert!((0..1000).all(|count| fs::read(stale(count)).unwrap() == b"stale"));
+}
+
 /// The file behind a link is replaced, not the link, and keeps its permissions.
 #[cfg(unix)]
 #[test]
