@@ -2,9 +2,10 @@
 
 use std::cell::Cell;
 
+use arrayvec::ArrayVec;
 use glam::{Vec2, Vec3};
 
-use super::{BxDF, BxdfFlags, BxdfSample, LambertianReflection, Lobe};
+use super::{BxDF, BxdfFlags, BxdfSample, Lobe};
 use crate::Spectrum;
 use crate::geometry::Frame;
 use crate::geometry::float::ONE_MINUS_EPSILON;
@@ -43,10 +44,8 @@ pub struct Bsdf<'a> {
     frame: Frame,
     ng: Vec3,
     eta: f32,
-    count: usize,
-    /// The kind of each lobe, so that a question need not ask the lobes that it is not for.
-    kinds: [BxdfFlags; MAX_LOBES],
-    lobes: [Lobe<'a>; MAX_LOBES],
+    /// Each lobe with its kind, so that a question need not ask the lobes that it is not for.
+    lobes: ArrayVec<(Lobe<'a>, BxdfFlags), MAX_LOBES>,
     rejected: Cell<u32>,
 }
 
@@ -57,29 +56,14 @@ impl<'a> Bsdf<'a> {
     /// relative index of refraction over the boundary, 1 for what light does not pass.
     #[inline]
     pub fn new(frame: Frame, ng: Vec3, eta: f32) -> Self {
-        const UNUSED: Lobe = Lobe::Lambertian(LambertianReflection::new(Spectrum::BLACK));
-        Self {
-            frame,
-            ng,
-            eta,
-            count: 0,
-            kinds: [BxdfFlags::empty(); MAX_LOBES],
-            lobes: [UNUSED; MAX_LOBES],
-            rejected: Cell::new(0),
-        }
+        Self { frame, ng, eta, lobes: ArrayVec::new_const(), rejected: Cell::new(0) }
     }
 
     /// Adds a lobe. Returns whether there was room for it: a ninth lobe is left out.
     #[inline]
     pub fn add(&mut self, lobe: impl Into<Lobe<'a>>) -> bool {
-        if self.count == MAX_LOBES {
-            return false;
-        }
         let lobe = lobe.into();
-        self.kinds[self.count] = lobe.flags();
-        self.lobes[self.count] = lobe;
-        self.count += 1;
-        true
+        self.lobes.try_push((lobe, lobe.flags())).is_ok()
     }
 
     /// The shading frame.
@@ -203,8 +187,10 @@ impl<'a> Bsdf<'a> {
     /// The lobes of the kinds in `flags`, each with its kind.
     #[inline]
     fn matching(&self, flags: BxdfFlags) -> impl Iterator<Item = (&Lobe<'a>, BxdfFlags)> {
-        let kinds = self.kinds.iter().copied().take(self.count);
-        self.lobes.iter().zip(kinds).filter(move |&(_, kind)| flags.contains(kind))
+        self.lobes
+            .iter()
+            .map(|(lobe, kind)| (lobe, *kind))
+            .filter(move |&(_, kind)| flags.contains(kind))
     }
 
     #[inline]

@@ -38,7 +38,14 @@ impl<'a> Worker<'a> {
         let size = film.window().size().min(UVec2::splat(options.tile_size.max(1)));
         let largest = Window { min: UVec2::ZERO, max: size };
         let tile = Film::new(film.resolution, largest, options.layers)?;
-        Ok(Self { scene, integrator, sampler, wave: Wave::default(), tile, rho_points: lattice() })
+        Ok(Self {
+            scene,
+            integrator,
+            sampler,
+            wave: Wave::with_capacity(WAVE, scene.lights().len()),
+            tile,
+            rho_points: lattice(),
+        })
     }
 
     /// Renders one tile, wave by wave. The samples of a pixel are added in the order of their index, so
