@@ -37,7 +37,11 @@ struct Candidate {
 impl Ord for Candidate {
     /// The cheapest is the greatest, as the heap wants it.
     fn cmp(&self, other: &Candidate) -> Ordering {
-        other.cost.total_cmp(&self.cost).then(other.edge.cmp(&self.edge)).then(other.stamp.cmp(&self.stamp))
+        other
+            .cost
+            .total_cmp(&self.cost)
+            .then(other.edge.cmp(&self.edge))
+            .then(other.stamp.cmp(&self.stamp))
     }
 }
 
@@ -96,7 +100,8 @@ impl Decimation<'_> {
             if d.edges.twin[e] < e as u32 { d.place(e as u32).1 } else { 0.0 }
         });
         let candidates = costs.iter().enumerate().filter(|(e, _)| d.edges.twin[*e] < *e as u32);
-        d.heap = candidates.map(|(e, &cost)| Candidate { cost, edge: e as u32, stamp: 0 }).collect();
+        d.heap =
+            candidates.map(|(e, &cost)| Candidate { cost, edge: e as u32, stamp: 0 }).collect();
         Ok(d)
     }
 

@@ -106,7 +106,11 @@ impl Sculpture {
             let mut inside = f64::INFINITY;
             while i < list.len() && self.shapes[list[i] as usize].0 == g {
                 let d = self.distance(list[i] as usize, p);
-                inside = if group.inner > 0.0 { smooth_min(inside, d, group.inner) } else { inside.min(d) };
+                inside = if group.inner > 0.0 {
+                    smooth_min(inside, d, group.inner)
+                } else {
+                    inside.min(d)
+                };
                 i += 1;
             }
             field = match group.join {

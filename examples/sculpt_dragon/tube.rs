@@ -110,7 +110,8 @@ impl Tube {
         let offset = p - c.xyz();
         let length = offset.length();
         let radius = c.w.max(1e-3);
-        let plain = matches!(self.skin, Skin::Smooth) && self.oval == 1.0 && self.muscles.is_empty();
+        let plain =
+            matches!(self.skin, Skin::Smooth) && self.oval == 1.0 && self.muscles.is_empty();
         if plain || length < 1e-9 {
             return length - radius;
         }
@@ -120,7 +121,8 @@ impl Tube {
         // On the caps the angle loses its meaning towards the pole, so that everything that depends on it fades there.
         let sideways = (x * x + y * y) / (length * length);
         let theta = y.atan2(x);
-        let section = 1.0 + sideways * (self.section(x, y) - 1.0 + self.swelling(i as f64 + t, theta));
+        let section =
+            1.0 + sideways * (self.section(x, y) - 1.0 + self.swelling(i as f64 + t, theta));
         let relief = if (length - radius * section).abs() < 2.0 * radius {
             sideways * self.relief(i, t, theta)
         } else {

@@ -60,7 +60,8 @@ pub fn crest(spine: &Tube) -> Vec<Tube> {
             let p: DVec3 = root + (s.back * up + lean * along) * height;
             p.extend(r)
         };
-        let keys = [place(-0.2, -0.2, base), place(0.45, 0.15, 0.62 * base), place(1.0, 0.95, 0.008)];
+        let keys =
+            [place(-0.2, -0.2, base), place(0.45, 0.15, 0.62 * base), place(1.0, 0.95, 0.008)];
         // Flattened across the body: the long axis of the section runs along it.
         spikes.push(Tube::new(&keys).side(s.across).oval(0.4));
         at += (0.11 + 0.30 * s.radius) / spine.speed(at);
@@ -81,8 +82,9 @@ pub fn flame(spine: &Tube) -> Vec<Tube> {
     let s = spine.station(spine.len() as f64 - 0.35);
     let blade = |[turn, length, aside]: [f64; 3]| {
         let out = (s.tangent * turn.cos() + s.back * turn.sin() + s.across * aside).normalize();
-        let place =
-            |along: f64, bend: f64, r: f64| (s.centre + (out * along + s.back * bend) * length).extend(r);
+        let place = |along: f64, bend: f64, r: f64| {
+            (s.centre + (out * along + s.back * bend) * length).extend(r)
+        };
         let keys = [
             place(0.0, 0.0, 0.05),
             place(0.35, -0.03, 0.055),
