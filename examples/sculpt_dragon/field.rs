@@ -1,8 +1,9 @@
-//! The sculpture's field, made quick: space is cut into cells, and each cell knows the few shapes that matter in it.
+//! The sculpture's field, made quick: space is cut into cells, and each cell knows the few shapes that
+//! matter in it.
 //!
-//! A shape that is farther from a cell than the widths of the blends can't change the field near the surface in that cell, so
-//! leaving it out changes no bit of a value that decides where the surface is. Cells that the surface can't reach keep
-//! one number for all their points.
+//! A shape that is farther from a cell than the widths of the blends can't change the field near the
+//! surface in that cell, so leaving it out changes no bit of a value that decides where the surface is.
+//! Cells that the surface can't reach keep one number for all their points.
 
 use glam::DVec3;
 
@@ -96,7 +97,8 @@ impl<'a> Field<'a> {
     }
 }
 
-/// Examines the cells of the block whose low corner is `corner`: first all shapes for the block, then few for each cell.
+/// Examines the cells of the block whose low corner is `corner`: first all shapes for the block, then few
+/// for each cell.
 fn examine_block(sculpture: &Sculpture, corner: DVec3) -> Vec<Cell> {
     let all: Vec<u16> = (0..sculpture.len() as u16).collect();
     let half = 0.5 * CELL * BLOCK as f64;
@@ -108,8 +110,8 @@ fn examine_block(sculpture: &Sculpture, corner: DVec3) -> Vec<Cell> {
     (0..BLOCK.pow(3)).map(cell).collect()
 }
 
-/// How much the field can differ, within the cube of half-edge `half`, from its value at the centre. The cube is taken a
-/// little larger than it is, for gradients that look over its side.
+/// How much the field can differ, within the cube of half-edge `half`, from its value at the centre. The
+/// cube is taken a little larger than it is, for gradients that look over its side.
 fn reach_of(half: f64) -> f64 {
     LIPSCHITZ * (half * 3f64.sqrt() + 0.005) + SLACK
 }

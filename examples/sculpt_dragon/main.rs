@@ -1,9 +1,10 @@
 //! Sculpts the dragon of `assets/dragon.obj`.
 //!
-//! The dragon is a field: tubes about splines, balls, cones and ellipsoids, smoothly joined, with scales laid out in
-//! the tubes' own coordinates (`anatomy`). Its zero surface is found by marching tetrahedra (`lattice`), evened out (`relax`)
-//! and decimated by quadric error (`decimate`); the normals are the field's gradient. Each step keeps the mesh a closed
-//! two-manifold; that and more is checked at the end (`verify`), and a mesh that fails is not written.
+//! The dragon is a field: tubes about splines, balls, cones and ellipsoids, smoothly joined, with scales
+//! laid out in the tubes' own coordinates (`anatomy`). Its zero surface is found by marching tetrahedra
+//! (`lattice`), evened out (`relax`) and decimated by quadric error (`decimate`); the normals are the
+//! field's gradient. Each step keeps the mesh a closed two-manifold; that and more is checked at the end
+//! (`verify`), and a mesh that fails is not written.
 //!
 //! ```text
 //! cargo run --release --example sculpt_dragon -- [--triangles N] [-o FILE]

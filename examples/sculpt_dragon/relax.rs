@@ -1,5 +1,5 @@
-//! Evens out a mesh on the field's surface: each vertex slides towards the middle of its neighbours, then Newton steps along
-//! the field's gradient bring it back onto the surface.
+//! Evens out a mesh on the field's surface: each vertex slides towards the middle of its neighbours, then
+//! Newton steps along the field's gradient bring it back onto the surface.
 
 use glam::DVec3;
 
