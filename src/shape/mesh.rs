@@ -1,6 +1,10 @@
 //! [`TriangleMesh`]: the one kind of shape.
 
-use glam::{Vec2, Vec3};
+use glam::{Affine3A, Vec2, Vec3};
+
+use super::triangle_normal;
+use crate::geometry::Frame;
+use crate::geometry::float::gamma;
 
 /// Triangles that share their vertices.
 ///
@@ -18,4 +22,111 @@ pub struct TriangleMesh {
     pub uvs: Vec<Vec2>,
     /// The corners of each triangle, counter-clockwise seen from outside.
     pub indices: Vec<[u32; 3]>,
+}
+
+impl TriangleMesh {
+    /// The corners of a triangle.
+    ///
+    /// # Panics
+    /// Like all that take a triangle's number, if there is no such triangle.
+    #[inline]
+    pub fn corners(&self, triangle: usize) -> [Vec3; 3] {
+        self.indices[triangle].map(|i| self.positions[i as usize])
+    }
+
+    /// The unit normal of a triangle's plane, on the side from which its corners run
+    /// counter-clockwise; zero when the triangle has no area.
+    #[inline]
+    pub fn geometric_normal(&self, triangle: usize) -> Vec3 {
+        triangle_normal(self.corners(triangle))
+    }
+
+    /// The unit normal between those of a triangle's corners, by barycentric weights, when all three
+    /// have one and they do not cancel.
+    #[inline]
+    pub fn shading_normal(&self, triangle: usize, b: [f32; 3]) -> Option<Vec3> {
+        let [n0, n1, n2] = self.corner_normals(triangle)?;
+        (b[0] * n0 + b[1] * n1 + b[2] * n2).try_normalize()
+    }
+
+    /// The texture coordinates of a triangle's corners: (0,0), (1,0), (1,1) when the mesh has none.
+    #[inline]
+    pub fn corner_uvs(&self, triangle: usize) -> [Vec2; 3] {
+        if self.uvs.is_empty() {
+            return [Vec2::ZERO, Vec2::X, Vec2::ONE];
+        }
+        self.indices[triangle].map(|i| self.uvs[i as usize])
+    }
+
+    /// ∂p/∂u and ∂p/∂v of a triangle.
+    ///
+    /// p is linear in (u, v), so the two edges from the third corner give a 2 × 2 system
+    /// (PBRT 3rd edition, section 3.6.2). Where it cannot be told from a singular one, any two
+    /// tangents are as good as others.
+    pub fn position_partials(&self, triangle: usize) -> [Vec3; 2] {
+        let [p0, p1, p2] = self.corners(triangle);
+        let solved = self.solve_uv(triangle, p0 - p2, p1 - p2);
+        solved.filter(|[dpdu, dpdv]| dpdu.cross(*dpdv).try_normalize().is_some()).unwrap_or_else(
+            || {
+                let frame = Frame::from_normal(self.geometric_normal(triangle));
+                [frame.s, frame.t]
+            },
+        )
+    }
+
+    /// ∂n/∂u and ∂n/∂v of a triangle's vertex normals; zero without them, or without usable
+    /// texture coordinates.
+    pub fn normal_partials(&self, triangle: usize) -> [Vec3; 2] {
+        self.corner_normals(triangle)
+            .and_then(|[n0, n1, n2]| self.solve_uv(triangle, n0 - n2, n1 - n2))
+            .unwrap_or_default()
+    }
+
+    /// Applies a transformation to positions and normals. One that mirrors turns the triangles
+    /// round, so that outside stays outside.
+    pub fn transform(&mut self, transform: &Affine3A) {
+        for p in &mut self.positions {
+            *p = transform.transform_point3(*p);
+        }
+        // Normals go with the inverse transpose, which is the cofactor matrix but for a factor:
+        // it exists even when the inverse does not.
+        let [x, y, z] = [transform.x_axis, transform.y_axis, transform.z_axis].map(Vec3::from);
+        let mirrored = x.cross(y).dot(z) < 0.0;
+        let sign = if mirrored { -1.0 } else { 1.0 };
+        for n in &mut self.normals {
+            *n = (sign * (y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z))
+                .normalize_or_zero();
+        }
+        if mirrored {
+            self.indices.iter_mut().for_each(|corners| corners.swap(1, 2));
+        }
+    }
+
+    /// The normals of a triangle's corners, when all three have one.
+    #[inline]
+    fn corner_normals(&self, triangle: usize) -> Option<[Vec3; 3]> {
+        if self.normals.is_empty() {
+            return None;
+        }
+        let normals = self.indices[triangle].map(|i| self.normals[i as usize]);
+        normals.iter().all(|n| *n != Vec3::ZERO).then_some(normals)
+    }
+
+    /// The derivatives by u and v of what changes by `d02` and `d12` from the third corner of a
+    /// triangle to the first and second; `None` when the texture coordinates do not span a plane.
+    fn solve_uv(&self, triangle: usize, d02: Vec3, d12: Vec3) -> Option<[Vec3; 2]> {
+        let [uv0, uv1, uv2] = self.corner_uvs(triangle);
+        let (duv02, duv12) = (uv0 - uv2, uv1 - uv2);
+        let (down, up) = (duv02.x * duv12.y, duv02.y * duv12.x);
+        let determinant = down - up;
+        // Below this bound the determinant may be all rounding error.
+        if determinant.abs() <= gamma(3) * (down.abs() + up.abs()) {
+            return None;
+        }
+        let derivatives = [
+            (duv12.y * d02 - duv02.y * d12) / determinant,
+            (duv02.x * d12 - duv12.x * d02) / determinant,
+        ];
+        derivatives.iter().all(|d| d.is_finite()).then_some(derivatives)
+    }
 }

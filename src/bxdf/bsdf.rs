@@ -1,0 +1,204 @@
+//! [`Bsdf`]: the sum of lobes at a hit.
+
+use std::cell::Cell;
+
+use arrayvec::ArrayVec;
+use glam::{Vec2, Vec3};
+
+use super::{BxDF, BxdfFlags, BxdfSample, Lobe};
+use crate::Spectrum;
+use crate::geometry::Frame;
+use crate::geometry::float::ONE_MINUS_EPSILON;
+
+/// The most lobes that one [`Bsdf`] holds (PBRT's `MaxBxDFs`).
+pub const MAX_LOBES: usize = 8;
+
+/// How a surface scatters light at one point: a sum of lobes, asked and answered in world space.
+///
+/// It stands between the world and the lobes, and is their one guard:
+/// - world directions go in, shading coordinates reach the lobes;
+/// - the shading normal makes the coordinates, but the **geometric** normal decides whether light is
+///   reflected or transmitted, so that none leaks through a surface whose shading normal leans over
+///   (PBRT 3rd edition, section 9.1);
+/// - no lobe is asked about a `wo` that lies exactly along the surface;
+/// - nothing leaves it that is not finite and non-negative. What a lobe gave instead is counted in
+///   [`rejected`](Bsdf::rejected).
+///
+/// ```
+/// use lobe::Spectrum;
+/// use lobe::bxdf::{Bsdf, BxdfFlags, LambertianReflection};
+/// use lobe::geometry::Frame;
+/// use lobe::glam::{Vec2, Vec3};
+///
+/// let normal = Vec3::Y;
+/// let mut bsdf = Bsdf::new(Frame::from_normal(normal), normal, 1.0);
+/// bsdf.add(LambertianReflection::new(Spectrum::splat(0.5)));
+///
+/// let wo = Vec3::new(0.6, 0.8, 0.0);
+/// let sample = bsdf.sample_f(wo, Vec2::new(0.3, 0.7), BxdfFlags::all()).unwrap();
+/// assert!(sample.wi.dot(normal) > 0.0);
+/// assert_eq!(bsdf.f(wo, -sample.wi, BxdfFlags::all()), Spectrum::BLACK);
+/// ```
+#[derive(Clone)]
+pub struct Bsdf<'a> {
+    frame: Frame,
+    ng: Vec3,
+    eta: f32,
+    /// Each lobe with its kind, so that a question need not ask the lobes that it is not for.
+    lobes: ArrayVec<(Lobe<'a>, BxdfFlags), MAX_LOBES>,
+    rejected: Cell<u32>,
+}
+
+impl<'a> Bsdf<'a> {
+    /// A surface without lobes: it absorbs everything.
+    ///
+    /// `frame` is made from the shading normal, `ng` is the unit geometric normal, and `eta` is the
+    /// relative index of refraction over the boundary, 1 for what light does not pass.
+    #[inline]
+    pub fn new(frame: Frame, ng: Vec3, eta: f32) -> Self {
+        Self { frame, ng, eta, lobes: ArrayVec::new_const(), rejected: Cell::new(0) }
+    }
+
+    /// Adds a lobe. Returns whether there was room for it: a ninth lobe is left out.
+    #[inline]
+    pub fn add(&mut self, lobe: impl Into<Lobe<'a>>) -> bool {
+        let lobe = lobe.into();
+        self.lobes.try_push((lobe, lobe.flags())).is_ok()
+    }
+
+    /// The shading frame.
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    /// The relative index of refraction.
+    pub fn eta(&self) -> f32 {
+        self.eta
+    }
+
+    /// How many answers of lobes were turned into black because they were negative or not finite.
+    pub fn rejected(&self) -> u32 {
+        self.rejected.get()
+    }
+
+    /// How many lobes are among the kinds that `flags` names.
+    #[inline]
+    pub fn num_components(&self, flags: BxdfFlags) -> usize {
+        self.matching(flags).count()
+    }
+
+    /// The value for a pair of world directions, without the cosine, in 1/sr: the sum of the lobes of
+    /// the kinds in `flags`. Delta lobes add nothing.
+    #[inline]
+    pub fn f(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> Spectrum {
+        let local_wo = self.frame.to_local(wo);
+        if local_wo.z == 0.0 {
+            return Spectrum::BLACK;
+        }
+        let f = self.sum(local_wo, self.frame.to_local(wi), self.side(wo, wi), flags);
+        self.guarded(f)
+    }
+
+    /// A world direction `wi` drawn from one of the lobes of the kinds in `flags`, each equally likely.
+    ///
+    /// `f` and `pdf` of the sample are those of all these lobes together, unless the chosen one is a
+    /// delta lobe. `None` when no lobe matches, or when the chosen one has no direction for this `u`.
+    pub fn sample_f(&self, wo: Vec3, u: Vec2, flags: BxdfFlags) -> Option<BxdfSample> {
+        let matching = self.num_components(flags);
+        let local_wo = self.frame.to_local(wo);
+        if matching == 0 || local_wo.z == 0.0 {
+            return None;
+        }
+        // Choose which lobe to sample, and stretch what is left of u.x over [0, 1) again.
+        let scaled = u.x * matching as f32;
+        let chosen = (scaled as usize).min(matching - 1);
+        let (lobe, kind) = self.matching(flags).nth(chosen)?;
+        let u = Vec2::new((scaled - chosen as f32).min(ONE_MINUS_EPSILON), u.y);
+        let mut sample = lobe.sample_f(local_wo, u)?;
+        let local_wi = sample.wi;
+        sample.wi = self.frame.to_world(local_wi);
+        if kind.contains(BxdfFlags::SPECULAR) {
+            sample.pdf /= matching as f32;
+        } else {
+            sample.pdf = self.mean_pdf(local_wo, local_wi, flags);
+            sample.f = self.sum(local_wo, local_wi, self.side(wo, sample.wi), flags);
+        }
+        sample.f = self.guarded(sample.f);
+        (sample.pdf > 0.0 && sample.pdf.is_finite()).then_some(sample)
+    }
+
+    /// Density over solid angle with which [`sample_f`](Bsdf::sample_f) gives `wi`: the mean over the
+    /// lobes of the kinds in `flags`.
+    #[inline]
+    pub fn pdf(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> f32 {
+        let local_wo = self.frame.to_local(wo);
+        if local_wo.z == 0.0 {
+            return 0.0;
+        }
+        let pdf = self.mean_pdf(local_wo, self.frame.to_local(wi), flags);
+        if pdf.is_finite() && pdf >= 0.0 { pdf } else { 0.0 }
+    }
+
+    /// The share of a uniform light that leaves along the world direction `wo`: see [`BxDF::rho_hd`].
+    pub fn rho_hd(&self, wo: Vec3, u: &[Vec2], flags: BxdfFlags) -> Spectrum {
+        let wo = self.frame.to_local(wo);
+        if wo.z == 0.0 {
+            return Spectrum::BLACK;
+        }
+        self.guarded(self.matching(flags).map(|(lobe, _)| lobe.rho_hd(wo, u)).sum())
+    }
+
+    /// The share of a uniform light that leaves at all: see [`BxDF::rho_hh`].
+    pub fn rho_hh(&self, u1: &[Vec2], u2: &[Vec2], flags: BxdfFlags) -> Spectrum {
+        self.guarded(self.matching(flags).map(|(lobe, _)| lobe.rho_hh(u1, u2)).sum())
+    }
+
+    /// Reflection or transmission, by the geometric normal.
+    #[inline]
+    fn side(&self, wo: Vec3, wi: Vec3) -> BxdfFlags {
+        if (wi.dot(self.ng) > 0.0) == (wo.dot(self.ng) > 0.0) {
+            BxdfFlags::REFLECTION
+        } else {
+            BxdfFlags::TRANSMISSION
+        }
+    }
+
+    #[inline]
+    fn sum(&self, wo: Vec3, wi: Vec3, side: BxdfFlags, flags: BxdfFlags) -> Spectrum {
+        let mut f = Spectrum::BLACK;
+        for (lobe, kind) in self.matching(flags) {
+            if kind.intersects(side) {
+                f += lobe.f(wo, wi);
+            }
+        }
+        f
+    }
+
+    #[inline]
+    fn mean_pdf(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> f32 {
+        let (mut sum, mut count) = (0.0, 0);
+        for (lobe, _) in self.matching(flags) {
+            sum += lobe.pdf(wo, wi);
+            count += 1;
+        }
+        if count > 1 { sum / count as f32 } else { sum }
+    }
+
+    /// The lobes of the kinds in `flags`, each with its kind.
+    #[inline]
+    fn matching(&self, flags: BxdfFlags) -> impl Iterator<Item = (&Lobe<'a>, BxdfFlags)> {
+        self.lobes
+            .iter()
+            .map(|(lobe, kind)| (lobe, *kind))
+            .filter(move |&(_, kind)| flags.contains(kind))
+    }
+
+    #[inline]
+    fn guarded(&self, f: Spectrum) -> Spectrum {
+        if f.is_valid() {
+            return f;
+        }
+        self.rejected.set(self.rejected.get() + 1);
+        Spectrum::BLACK
+    }
+}

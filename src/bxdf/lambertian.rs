@@ -1,0 +1,47 @@
+//! [`LambertianReflection`]: the perfect diffuser.
+
+use std::f32::consts::FRAC_1_PI;
+
+use glam::{Vec2, Vec3};
+
+use super::{BxDF, BxdfFlags};
+use crate::Spectrum;
+
+/// Reflects the same radiance in all directions.
+///
+/// f = R/π: integrated with the cosine over the hemisphere, the constant has to give the reflectance
+/// R, and ∫ cos θ dω = π (formula 5.1 of the chapter; PBRT 3rd edition, section 8.3).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LambertianReflection {
+    r: Spectrum,
+}
+
+impl LambertianReflection {
+    /// A diffuser that reflects the share `r` of the light, in `[0, 1]` per band.
+    #[inline]
+    pub const fn new(r: Spectrum) -> Self {
+        Self { r }
+    }
+}
+
+impl BxDF for LambertianReflection {
+    #[inline]
+    fn flags(&self) -> BxdfFlags {
+        BxdfFlags::REFLECTION | BxdfFlags::DIFFUSE
+    }
+
+    #[inline]
+    fn f(&self, _wo: Vec3, _wi: Vec3) -> Spectrum {
+        self.r * FRAC_1_PI
+    }
+
+    /// R for every direction (formula 5.10 of the chapter).
+    fn rho_hd(&self, _wo: Vec3, _u: &[Vec2]) -> Spectrum {
+        self.r
+    }
+
+    /// R (formula 5.11 of the chapter).
+    fn rho_hh(&self, _u1: &[Vec2], _u2: &[Vec2]) -> Spectrum {
+        self.r
+    }
+}

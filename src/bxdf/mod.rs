@@ -1,0 +1,20 @@
+//! Reflection models: the contract [`BxDF`], one model per file, and [`Bsdf`], their sum at a hit.
+//!
+//! Everything below [`Bsdf`] lives in shading coordinates: the z axis is the shading normal, and `wo`
+//! and `wi` are unit vectors that both point away from the surface.
+
+mod arena;
+mod bsdf;
+mod lambertian;
+mod lobe;
+mod oren_nayar;
+mod scaled;
+mod traits;
+
+pub use arena::Arena;
+pub use bsdf::{Bsdf, MAX_LOBES};
+pub use lambertian::LambertianReflection;
+pub use lobe::Lobe;
+pub use oren_nayar::OrenNayar;
+pub use scaled::ScaledBxDF;
+pub use traits::{BxDF, BxdfFlags, BxdfSample, TransportMode};

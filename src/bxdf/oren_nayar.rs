@@ -1,0 +1,67 @@
+//! [`OrenNayar`]: rough diffuse reflection.
+
+use std::f32::consts::FRAC_1_PI;
+
+use glam::{Vec2, Vec3};
+
+use super::{BxDF, BxdfFlags};
+use crate::Spectrum;
+use crate::geometry::trig::{abs_cos_theta, sin_theta, sin2_theta};
+
+/// A surface of V-shaped grooves, each a perfect diffuser, whose slopes have the standard deviation
+/// sigma: brighter than Lambert towards the light, flatter over a rounded body.
+///
+/// The qualitative model of Oren and Nayar 1994, "Generalization of Lambert's Reflectance Model",
+/// equation 30, as PBRT has it (3rd edition, section 8.4.1):
+/// f = R/π (A + B max(0, cos(φi - φo)) sin α tan β), α and β the larger and the smaller of the two angles to
+/// the normal. It leaves out light between the grooves, so it loses energy: see [`BxDF::rho_hd`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OrenNayar {
+    r: Spectrum,
+    a: f32,
+    b: f32,
+}
+
+impl OrenNayar {
+    /// A rough diffuser that reflects the share `r` of the light, in `[0, 1]` per band, with slopes of
+    /// standard deviation `sigma` in degrees, in `[0, 90]`. Sigma 0 is Lambert's law.
+    #[inline]
+    pub fn new(r: Spectrum, sigma: f32) -> Self {
+        let sigma2 = sigma.to_radians().powi(2);
+        Self { r, a: 1.0 - sigma2 / (2.0 * (sigma2 + 0.33)), b: 0.45 * sigma2 / (sigma2 + 0.09) }
+    }
+}
+
+impl BxDF for OrenNayar {
+    #[inline]
+    fn flags(&self) -> BxdfFlags {
+        BxdfFlags::REFLECTION | BxdfFlags::DIFFUSE
+    }
+
+    #[inline]
+    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+        // sin θi sin θo max(0, cos Δφ) is the dot product of the directions seen from above, and
+        // sin α tan β = sin θi sin θo / max(cos θi, cos θo): no angle has to be found.
+        let across = wo.truncate().dot(wi.truncate()).max(0.0);
+        let larger_cos = abs_cos_theta(wo).max(abs_cos_theta(wi));
+        let ratio = if across > 0.0 { across / larger_cos } else { 0.0 };
+        self.r * (FRAC_1_PI * (self.a + self.b * ratio))
+    }
+
+    /// The integral of f cos θi in closed form: over φ, max(0, cos φ) gives 2; over θi it falls into
+    /// the directions above and below wo. With c = cos θ and s = sin θ of wo,
+    /// ρ = R (A + 2B/π [ s (θ - s c)/2 + (tan θ)(1 - s³)/3 ]).
+    fn rho_hd(&self, wo: Vec3, _u: &[Vec2]) -> Spectrum {
+        let (cos, sin) = (abs_cos_theta(wo), sin_theta(wo));
+        let theta = sin.atan2(cos);
+        // tan θ (1 - s³) = s c (1 + s + s²) / (1 + s), which stays finite at grazing angles.
+        let beyond = sin * cos * (1.0 + sin + sin2_theta(wo)) / (3.0 * (1.0 + sin));
+        let within = 0.5 * sin * (theta - sin * cos);
+        self.r * (self.a + 2.0 * FRAC_1_PI * self.b * (within + beyond))
+    }
+
+    /// The cosine-weighted mean of ρ_hd: R (A + B (2/3 - 64/(45π))).
+    fn rho_hh(&self, _u1: &[Vec2], _u2: &[Vec2]) -> Spectrum {
+        self.r * (self.a + self.b * (2.0 / 3.0 - 64.0 / 45.0 * FRAC_1_PI))
+    }
+}

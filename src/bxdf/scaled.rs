@@ -1,0 +1,51 @@
+//! [`ScaledBxDF`]: another lobe, dimmed.
+
+use glam::{Vec2, Vec3};
+
+use super::{BxDF, BxdfFlags, BxdfSample};
+use crate::Spectrum;
+
+/// A lobe whose values are multiplied by a spectrum. Directions and densities are those of the lobe.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScaledBxDF<B> {
+    bxdf: B,
+    scale: Spectrum,
+}
+
+impl<B: BxDF> ScaledBxDF<B> {
+    /// `bxdf` times `scale`, which is in `[0, 1]` per band where energy is to be kept.
+    #[inline]
+    pub const fn new(bxdf: B, scale: Spectrum) -> Self {
+        Self { bxdf, scale }
+    }
+}
+
+impl<B: BxDF> BxDF for ScaledBxDF<B> {
+    #[inline]
+    fn flags(&self) -> BxdfFlags {
+        self.bxdf.flags()
+    }
+
+    #[inline]
+    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+        self.scale * self.bxdf.f(wo, wi)
+    }
+
+    #[inline]
+    fn sample_f(&self, wo: Vec3, u: Vec2) -> Option<BxdfSample> {
+        self.bxdf.sample_f(wo, u).map(|s| BxdfSample { f: self.scale * s.f, ..s })
+    }
+
+    #[inline]
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        self.bxdf.pdf(wo, wi)
+    }
+
+    fn rho_hd(&self, wo: Vec3, u: &[Vec2]) -> Spectrum {
+        self.scale * self.bxdf.rho_hd(wo, u)
+    }
+
+    fn rho_hh(&self, u1: &[Vec2], u2: &[Vec2]) -> Spectrum {
+        self.scale * self.bxdf.rho_hh(u1, u2)
+    }
+}

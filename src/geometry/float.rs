@@ -1,0 +1,17 @@
+//! Bounds on what rounding does to 32-bit floats.
+
+/// Unit roundoff: the largest relative error of one correctly rounded operation, 2⁻²⁴.
+pub const UNIT_ROUNDOFF: f32 = 0.5 * f32::EPSILON;
+
+/// The largest float below 1, and the largest value that a uniform sample takes.
+pub const ONE_MINUS_EPSILON: f32 = 1.0 - UNIT_ROUNDOFF;
+
+/// Bound γₙ = n u / (1 - n u) on the relative error of `n` rounded operations in a row.
+///
+/// Higham, *Accuracy and Stability of Numerical Algorithms*, section 3.1; PBRT 3rd edition, section 3.9.1.
+/// It is meant for small `n`: the bound holds while n u < 1.
+#[inline]
+pub const fn gamma(n: u32) -> f32 {
+    let nu = n as f32 * UNIT_ROUNDOFF;
+    nu / (1.0 - nu)
+}

@@ -1,0 +1,58 @@
+//! [`Frame`]: the shading coordinate system.
+
+use glam::Vec3;
+
+/// A right-handed orthonormal basis whose third axis is a normal: shading coordinates.
+///
+/// The matrix with rows s, t, n takes world directions to shading coordinates. It is orthogonal, so
+/// its transpose takes them back (PBRT 3rd edition, section 9.1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// First tangent: the x axis.
+    pub s: Vec3,
+    /// Second tangent, n × s: the y axis.
+    pub t: Vec3,
+    /// Normal: the z axis.
+    pub n: Vec3,
+}
+
+impl Frame {
+    /// A frame around the unit vector `n`, with tangents that point anywhere.
+    ///
+    /// Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3. Unlike Frisvad's
+    /// form it stays orthonormal close to n = -z.
+    #[inline]
+    pub fn from_normal(n: Vec3) -> Self {
+        let sign = 1.0_f32.copysign(n.z);
+        let a = -1.0 / (sign + n.z);
+        let b = n.x * n.y * a;
+        Self {
+            s: Vec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x),
+            t: Vec3::new(b, sign + n.y * n.y * a, -n.y),
+            n,
+        }
+    }
+
+    /// A frame around the unit vector `n` whose x axis lies in the plane of `n` and `tangent`, on the
+    /// side of `tangent`. A tangent that is zero, not finite or parallel to `n` leaves the choice to
+    /// [`Frame::from_normal`].
+    #[inline]
+    pub fn from_normal_and_tangent(n: Vec3, tangent: Vec3) -> Self {
+        match (tangent - n * n.dot(tangent)).try_normalize() {
+            Some(s) => Self { s, t: n.cross(s), n },
+            None => Self::from_normal(n),
+        }
+    }
+
+    /// A world direction in shading coordinates.
+    #[inline]
+    pub fn to_local(&self, v: Vec3) -> Vec3 {
+        Vec3::new(v.dot(self.s), v.dot(self.t), v.dot(self.n))
+    }
+
+    /// A direction in shading coordinates back in the world.
+    #[inline]
+    pub fn to_world(&self, v: Vec3) -> Vec3 {
+        self.s * v.x + self.t * v.y + self.n * v.z
+    }
+}

@@ -1,0 +1,13 @@
+//! Geometry: rays, shading frames and their trigonometry, error-bounded points, float helpers.
+
+mod bounded;
+pub mod float;
+mod frame;
+mod optics;
+mod ray;
+pub mod trig;
+
+pub use bounded::BoundedPoint;
+pub use frame::Frame;
+pub use optics::{reflect, refract};
+pub use ray::Ray;

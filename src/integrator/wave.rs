@@ -1,0 +1,139 @@
+//! [`Wave`]: the samples that go through an integrator together.
+
+use crate::Spectrum;
+use crate::accel::Hit;
+use crate::bxdf::Arena;
+use crate::geometry::Ray;
+use crate::sampling::{SampleId, Sampler};
+use crate::scene::Scene;
+
+/// Which dimension of a sample is used for what.
+pub mod dimension {
+    /// The place within the pixel, 2D.
+    pub const FILM: u32 = 0;
+    /// The place on the lens, 2D.
+    pub const LENS: u32 = 1;
+}
+
+/// What a render did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Rays from the camera.
+    pub camera_rays: u64,
+    /// Rays towards lights.
+    pub shadow_rays: u64,
+    /// Answers of lobes that were negative or not finite and were taken as black.
+    pub rejected: u64,
+}
+
+impl Counters {
+    /// All rays.
+    pub fn rays(&self) -> u64 {
+        self.camera_rays + self.shadow_rays
+    }
+
+    /// Adds what another worker did.
+    pub fn add(&mut self, other: &Self) {
+        self.camera_rays += other.camera_rays;
+        self.shadow_rays += other.shadow_rays;
+        self.rejected += other.rejected;
+    }
+}
+
+/// A batch of camera samples with all that is known of each, and the buffers that one worker uses
+/// over and over. Element i of the first four belongs to the same sample.
+#[derive(Default)]
+pub struct Wave {
+    /// Pixel and index.
+    pub ids: Vec<SampleId>,
+    /// Rays from the camera.
+    pub rays: Vec<Ray>,
+    /// What they hit.
+    pub hits: Vec<Hit>,
+    /// What arrives along them.
+    pub radiance: Vec<Spectrum>,
+    /// Rays towards lights.
+    pub shadow: ShadowRays,
+    /// Memory for lobes.
+    pub arena: Arena,
+    /// What was done so far.
+    pub counters: Counters,
+}
+
+impl Wave {
+    /// A wave with room for `samples` samples, and for a ray from each to each of `lights` lights.
+    pub fn with_capacity(samples: usize, lights: usize) -> Self {
+        Self {
+            ids: Vec::with_capacity(samples),
+            rays: Vec::with_capacity(samples),
+            hits: Vec::with_capacity(samples),
+            radiance: Vec::with_capacity(samples),
+            shadow: ShadowRays::with_capacity(samples * lights),
+            ..Self::default()
+        }
+    }
+
+    /// Starts anew with the camera rays of these samples, and finds what they hit.
+    pub fn begin(
+        &mut self,
+        scene: &Scene,
+        sampler: &dyn Sampler,
+        ids: impl Iterator<Item = SampleId>,
+    ) {
+        self.ids.clear();
+        self.ids.extend(ids);
+        let camera = scene.camera();
+        self.rays.clear();
+        self.rays.extend(self.ids.iter().map(|&id| {
+            let offset = sampler.get_2d(id, dimension::FILM);
+            camera.generate_ray(id.pixel, offset, || sampler.get_2d(id, dimension::LENS))
+        }));
+        self.counters.camera_rays += self.rays.len() as u64;
+        self.hits.clear();
+        self.hits.resize(self.rays.len(), Hit::MISS);
+        scene.accel().intersect(&self.rays, &mut self.hits);
+        self.radiance.clear();
+        self.radiance.resize(self.rays.len(), Spectrum::BLACK);
+    }
+}
+
+/// Rays towards lights, each with what it carries to which sample if nothing stands in its way.
+#[derive(Default)]
+pub struct ShadowRays {
+    rays: Vec<Ray>,
+    carried: Vec<(usize, Spectrum)>,
+    occluded: Vec<bool>,
+}
+
+impl ShadowRays {
+    fn with_capacity(rays: usize) -> Self {
+        Self {
+            rays: Vec::with_capacity(rays),
+            carried: Vec::with_capacity(rays),
+            occluded: Vec::with_capacity(rays),
+        }
+    }
+
+    /// Adds a ray for the sample with this number in the wave.
+    #[inline]
+    pub fn push(&mut self, sample: usize, ray: Ray, radiance: Spectrum) {
+        self.rays.push(ray);
+        self.carried.push((sample, radiance));
+    }
+
+    /// Traces all rays, adds what gets through to `radiance`, and returns how many they were.
+    pub fn trace(&mut self, scene: &Scene, radiance: &mut [Spectrum]) -> u64 {
+        self.occluded.clear();
+        self.occluded.resize(self.rays.len(), false);
+        scene.accel().occluded(&self.rays, &mut self.occluded);
+        for (&(sample, carried), &occluded) in self.carried.iter().zip(&self.occluded) {
+            if !occluded {
+                radiance[sample] += carried;
+            }
+        }
+        let count = self.rays.len() as u64;
+        self.rays.clear();
+        self.carried.clear();
+        count
+    }
+}

@@ -1,0 +1,242 @@
+//! [`SurfaceInteraction`]: what is known about a hit.
+
+use glam::{Vec2, Vec3};
+
+use crate::geometry::{BoundedPoint, Frame, Ray};
+use crate::shape::{TriangleMesh, triangle_normal};
+
+/// How position and normal change with the texture coordinates (u, v).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Partials {
+    /// ∂p/∂u.
+    pub dpdu: Vec3,
+    /// ∂p/∂v.
+    pub dpdv: Vec3,
+    /// ∂n/∂u.
+    pub dndu: Vec3,
+    /// ∂n/∂v.
+    pub dndv: Vec3,
+}
+
+/// The geometry that shading sees: that of the surface itself, or of the smooth or bumpy one it
+/// stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shading {
+    /// Unit shading normal, on the side of the geometric one.
+    pub n: Vec3,
+    /// ∂p/∂u of the shading surface.
+    pub dpdu: Vec3,
+    /// ∂p/∂v of the shading surface.
+    pub dpdv: Vec3,
+    /// ∂n/∂u of the shading normal.
+    pub dndu: Vec3,
+    /// ∂n/∂v of the shading normal.
+    pub dndv: Vec3,
+}
+
+/// A point where a ray meets a surface, in world space (PBRT 3rd edition, section 2.10.1).
+///
+/// It is lazy: point and normals are found when it is made, everything else when it is asked for.
+#[derive(Clone)]
+pub struct SurfaceInteraction<'a> {
+    p: Vec3,
+    wo: Vec3,
+    n: Vec3,
+    shading_n: Vec3,
+    source: Source<'a>,
+    /// What [`SurfaceInteraction::set_shading`] was given.
+    displaced: Option<Shading>,
+}
+
+/// Where the answers come from.
+#[derive(Clone)]
+enum Source<'a> {
+    Triangle { mesh: &'a TriangleMesh, triangle: usize, b: [f32; 3] },
+    Given { p_error: Vec3, uv: Vec2, partials: Partials },
+}
+
+impl<'a> SurfaceInteraction<'a> {
+    /// The point of a triangle with barycentric weights `b`, seen from the unit direction `wo`.
+    ///
+    /// # Panics
+    /// If `triangle` is not one of the mesh's.
+    #[inline]
+    pub fn on_triangle(mesh: &'a TriangleMesh, triangle: usize, b: [f32; 3], wo: Vec3) -> Self {
+        let corners = mesh.corners(triangle);
+        let n = triangle_normal(corners);
+        // With vertex normals, they say which side is outside (PBRT 3rd edition, section 3.6.2).
+        let (n, shading_n) = match mesh.shading_normal(triangle, b) {
+            Some(ns) => (if n.dot(ns) < 0.0 { -n } else { n }, ns),
+            None => (n, n),
+        };
+        Self {
+            p: BoundedPoint::on_triangle(corners, b).p,
+            wo,
+            n,
+            shading_n,
+            source: Source::Triangle { mesh, triangle, b },
+            displaced: None,
+        }
+    }
+
+    /// A hit on a surface of any kind: the point with the bounds of its error, texture coordinates,
+    /// the unit direction towards the viewer, and the derivatives. The normal is ∂p/∂u × ∂p/∂v.
+    pub fn new(p: BoundedPoint, uv: Vec2, wo: Vec3, partials: Partials) -> Self {
+        let n = partials.dpdu.cross(partials.dpdv).normalize_or(wo);
+        Self {
+            p: p.p,
+            wo,
+            n,
+            shading_n: n,
+            source: Source::Given { p_error: p.error, uv, partials },
+            displaced: None,
+        }
+    }
+
+    /// The point.
+    #[inline]
+    pub fn p(&self) -> Vec3 {
+        self.p
+    }
+
+    /// Bounds on the absolute error of the point, by axis.
+    #[inline]
+    pub fn p_error(&self) -> Vec3 {
+        match &self.source {
+            Source::Triangle { mesh, triangle, b } => {
+                BoundedPoint::on_triangle(mesh.corners(*triangle), *b).error
+            }
+            Source::Given { p_error, .. } => *p_error,
+        }
+    }
+
+    /// Texture coordinates.
+    #[inline]
+    pub fn uv(&self) -> Vec2 {
+        match &self.source {
+            Source::Triangle { mesh, triangle, b } => {
+                let [uv0, uv1, uv2] = mesh.corner_uvs(*triangle);
+                b[0] * uv0 + b[1] * uv1 + b[2] * uv2
+            }
+            Source::Given { uv, .. } => *uv,
+        }
+    }
+
+    /// The unit direction towards where the ray came from.
+    #[inline]
+    pub fn wo(&self) -> Vec3 {
+        self.wo
+    }
+
+    /// The unit geometric normal. It points outside, whichever side `wo` is on.
+    #[inline]
+    pub fn n(&self) -> Vec3 {
+        self.n
+    }
+
+    /// The unit shading normal.
+    #[inline]
+    pub fn shading_n(&self) -> Vec3 {
+        self.shading_n
+    }
+
+    /// The derivatives of the surface itself. A triangle is flat: its normal does not change.
+    pub fn partials(&self) -> Partials {
+        match &self.source {
+            Source::Triangle { mesh, triangle, .. } => {
+                let [dpdu, dpdv] = mesh.position_partials(*triangle);
+                Partials { dpdu, dpdv, ..Partials::default() }
+            }
+            Source::Given { partials, .. } => *partials,
+        }
+    }
+
+    /// ∂p/∂u.
+    pub fn dpdu(&self) -> Vec3 {
+        self.partials().dpdu
+    }
+
+    /// ∂p/∂v.
+    pub fn dpdv(&self) -> Vec3 {
+        self.partials().dpdv
+    }
+
+    /// ∂n/∂u of the geometric normal.
+    pub fn dndu(&self) -> Vec3 {
+        self.partials().dndu
+    }
+
+    /// ∂n/∂v of the geometric normal.
+    pub fn dndv(&self) -> Vec3 {
+        self.partials().dndv
+    }
+
+    /// The geometry that shading sees, whole.
+    ///
+    /// Its tangents are those of the surface, laid into the plane across the shading normal. They
+    /// keep their lengths, which bump mapping relies on.
+    pub fn shading(&self) -> Shading {
+        if let Some(displaced) = self.displaced {
+            return displaced;
+        }
+        let n = self.shading_n;
+        let Partials { dpdu, dpdv, dndu, dndv } = self.partials();
+        let [dndu, dndv] = match &self.source {
+            Source::Triangle { mesh, triangle, .. } => mesh.normal_partials(*triangle),
+            Source::Given { .. } => [dndu, dndv],
+        };
+        let [mut dpdu, mut dpdv] = [dpdu, dpdv].map(|v| v - n * n.dot(v));
+        if dpdu.cross(dpdv).try_normalize().is_none() {
+            let frame = Frame::from_normal(n);
+            (dpdu, dpdv) = (frame.s, frame.t);
+        }
+        Shading { n, dpdu, dpdv, dndu, dndv }
+    }
+
+    /// Replaces the geometry that shading sees, as bump mapping does.
+    pub fn set_shading(&mut self, shading: Shading) {
+        self.shading_n = shading.n;
+        self.displaced = Some(shading);
+    }
+
+    /// This hit as a texture would see it from a point nearby, with another normal.
+    pub fn moved_to(&self, p: Vec3, uv: Vec2, n: Vec3) -> Self {
+        Self {
+            p,
+            n,
+            shading_n: n,
+            source: Source::Given { p_error: self.p_error(), uv, partials: self.partials() },
+            displaced: Some(Shading { n, ..self.shading() }),
+            wo: self.wo,
+        }
+    }
+
+    /// A frame around the shading normal whose tangents point anywhere: all that a surface needs
+    /// which looks the same from all sides.
+    #[inline]
+    pub fn isotropic_frame(&self) -> Frame {
+        Frame::from_normal(self.shading_n)
+    }
+
+    /// The frame around the shading normal with its x axis along ∂p/∂u.
+    pub fn tangent_frame(&self) -> Frame {
+        Frame::from_normal_and_tangent(self.shading_n, self.shading().dpdu)
+    }
+
+    /// The ray that leaves this point along `w`, from an origin that lies outside of the error box.
+    #[inline]
+    pub fn spawn_ray(&self, w: Vec3) -> Ray {
+        Ray::new(self.ray_origin(w), w)
+    }
+
+    /// The ray from this point to `target`, which is at t = 1 and left out.
+    #[inline]
+    pub fn spawn_ray_to(&self, target: Vec3) -> Ray {
+        Ray::between(self.ray_origin(target - self.p), target)
+    }
+
+    #[inline]
+    fn ray_origin(&self, w: Vec3) -> Vec3 {
+        BoundedPoint { p: self.p, error: self.p_error() }.ray_origin(self.n, w)
+    }
+}

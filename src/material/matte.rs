@@ -1,0 +1,64 @@
+//! [`MatteMaterial`]: purely diffuse.
+
+use super::{Material, bump};
+use crate::Spectrum;
+use crate::bxdf::{Arena, Bsdf, LambertianReflection, OrenNayar, TransportMode};
+use crate::interaction::SurfaceInteraction;
+use crate::texture::TextureHandle;
+
+/// A purely diffuse surface, smooth or rough (PBRT 3rd edition, section 9.2.1).
+///
+/// ```
+/// use lobe::material::MatteMaterial;
+/// let clay = MatteMaterial::new([0.6, 0.3, 0.2]).with_sigma(20.0);
+/// ```
+#[derive(Clone)]
+pub struct MatteMaterial {
+    kd: TextureHandle<Spectrum>,
+    sigma: Option<TextureHandle<f32>>,
+    bump: Option<TextureHandle<f32>>,
+}
+
+impl MatteMaterial {
+    /// Reflects the share `kd`, brought into `[0, 1]` per band, by Lambert's law.
+    pub fn new(kd: impl Into<TextureHandle<Spectrum>>) -> Self {
+        Self { kd: kd.into(), sigma: None, bump: None }
+    }
+
+    /// Adds roughness: the standard deviation of the surface's slopes in degrees, brought into
+    /// `[0, 90]`. Where it is 0 Lambert's law holds, elsewhere [`OrenNayar`].
+    pub fn with_sigma(self, sigma: impl Into<TextureHandle<f32>>) -> Self {
+        Self { sigma: Some(sigma.into()), ..self }
+    }
+
+    /// Adds a displacement along the normal, in scene units, that tilts the shading frame.
+    pub fn with_bump(self, displacement: impl Into<TextureHandle<f32>>) -> Self {
+        Self { bump: Some(displacement.into()), ..self }
+    }
+}
+
+impl Material for MatteMaterial {
+    #[inline]
+    fn compute_scattering<'a>(
+        &self,
+        si: &mut SurfaceInteraction,
+        _arena: &'a Arena,
+        _mode: TransportMode,
+        _allow_multiple_lobes: bool,
+    ) -> Bsdf<'a> {
+        if let Some(displacement) = &self.bump {
+            bump(displacement, si);
+        }
+        let mut bsdf = Bsdf::new(si.isotropic_frame(), si.n(), 1.0);
+        let r = self.kd.evaluate(si).clamp(0.0, 1.0);
+        if !r.is_black() {
+            let sigma = self.sigma.as_ref().map_or(0.0, |s| s.evaluate(si).clamp(0.0, 90.0));
+            if sigma == 0.0 {
+                bsdf.add(LambertianReflection::new(r));
+            } else {
+                bsdf.add(OrenNayar::new(r, sigma));
+            }
+        }
+        bsdf
+    }
+}

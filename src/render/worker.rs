@@ -1,0 +1,109 @@
+//! [`Worker`]: one thread's share of the rendering.
+
+use glam::UVec2;
+
+use super::RenderOptions;
+use crate::bxdf::{BxdfFlags, TransportMode};
+use crate::film::{Film, FilmError, Window};
+use crate::integrator::{Counters, Integrator, Wave};
+use crate::sampling::{SampleId, Sampler};
+use crate::scene::Scene;
+
+/// How many samples go through the integrator together: enough for batches to pay, few enough for
+/// rays and hits to stay in the second-level cache.
+const WAVE: usize = 1024;
+
+/// Points for reflectances that have no closed form: a lattice over the unit square.
+const RHO_POINTS: usize = 16;
+
+/// Renders tiles. All of its memory is taken when it is made.
+pub struct Worker<'a> {
+    scene: &'a Scene,
+    integrator: &'a dyn Integrator,
+    sampler: &'a dyn Sampler,
+    wave: Wave,
+    tile: Film,
+    rho_points: [glam::Vec2; RHO_POINTS],
+}
+
+impl<'a> Worker<'a> {
+    /// A worker with room for the largest tile.
+    pub fn new(
+        scene: &'a Scene,
+        integrator: &'a dyn Integrator,
+        sampler: &'a dyn Sampler,
+        options: &RenderOptions,
+    ) -> Result<Self, FilmError> {
+        let film = scene.film();
+        let size = film.window().size().min(UVec2::splat(options.tile_size.max(1)));
+        let largest = Window { min: UVec2::ZERO, max: size };
+        let tile = Film::new(film.resolution, largest, options.layers)?;
+        Ok(Self {
+            scene,
+            integrator,
+            sampler,
+            wave: Wave::with_capacity(WAVE, scene.lights().len()),
+            tile,
+            rho_points: lattice(),
+        })
+    }
+
+    /// Renders one tile, wave by wave. The samples of a pixel are added in the order of their index, so
+    /// that its sum does not depend on how the image is cut.
+    pub fn render(&mut self, window: Window) {
+        self.tile.reset(window);
+        let spp = self.sampler.samples_per_pixel() as usize;
+        let width = window.size().x as usize;
+        let samples = window.area() * spp;
+        for first in (0..samples).step_by(WAVE) {
+            let ids = (first..samples.min(first + WAVE)).map(|number| {
+                let (pixel, index) = (number / spp, number % spp);
+                let place = UVec2::new((pixel % width) as u32, (pixel / width) as u32);
+                SampleId { pixel: window.min + place, index: index as u32 }
+            });
+            self.wave.begin(self.scene, self.sampler, ids);
+            self.integrator.shade(self.scene, &mut self.wave);
+            for (id, &radiance) in self.wave.ids.iter().zip(&self.wave.radiance) {
+                self.tile.add_sample(id.pixel, radiance);
+            }
+            if self.tile.has_layers() {
+                self.add_first_hits();
+            }
+        }
+    }
+
+    /// The tile that was rendered last.
+    pub fn tile(&self) -> &Film {
+        &self.tile
+    }
+
+    /// What was done since the last time this was asked.
+    pub fn take_counters(&mut self) -> Counters {
+        std::mem::take(&mut self.wave.counters)
+    }
+
+    /// Normal, depth and albedo of what the camera rays hit.
+    fn add_first_hits(&mut self) {
+        let wave = &mut self.wave;
+        for ((id, ray), hit) in wave.ids.iter().zip(&wave.rays).zip(&wave.hits) {
+            if !hit.is_hit() {
+                continue;
+            }
+            let mut si = self.scene.interaction(ray, hit);
+            let material = self.scene.material(hit);
+            let bsdf =
+                material.compute_scattering(&mut si, &wave.arena, TransportMode::Radiance, true);
+            let albedo = bsdf.rho_hd(si.wo(), &self.rho_points, BxdfFlags::all());
+            self.tile.add_first_hit(id.pixel, si.shading_n(), hit.t, albedo);
+        }
+        wave.arena.reset();
+    }
+}
+
+/// A rank-1 lattice with the golden ratio as its step.
+fn lattice() -> [glam::Vec2; RHO_POINTS] {
+    std::array::from_fn(|i| {
+        let x = (i as f32 + 0.5) / RHO_POINTS as f32;
+        glam::Vec2::new(x, (i as f32 * 0.618_034).fract())
+    })
+}

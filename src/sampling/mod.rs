@@ -1,0 +1,15 @@
+//! Sampling: warps from the unit square to other domains, and the samplers that fill the square.
+
+mod hash;
+mod independent;
+mod sampler;
+mod stratified;
+mod warp;
+
+pub use independent::IndependentSampler;
+pub use sampler::{SampleId, Sampler};
+pub use stratified::StratifiedSampler;
+pub use warp::{
+    concentric_disk, cosine_hemisphere, uniform_cone, uniform_disk, uniform_hemisphere,
+    uniform_sphere, uniform_triangle,
+};

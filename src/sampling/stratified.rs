@@ -1,0 +1,70 @@
+//! [`StratifiedSampler`]: one jittered sample in each cell of a grid.
+
+use glam::Vec2;
+
+use super::hash::{hash, permute, unit_float};
+use super::{SampleId, Sampler};
+use crate::geometry::float::ONE_MINUS_EPSILON;
+
+/// Jittered samples: the square is cut into equal cells and each sample has a cell to itself
+/// (PBRT 3rd edition, section 7.3). The cells are dealt out in a new random order in each pixel and
+/// dimension, so that dimensions stay independent.
+///
+/// Any number of samples will do. When it is not the product of two near factors the grid has a few
+/// cells more than there are samples, and those that stay empty are drawn at random: the estimate
+/// stays unbiased. Samples beyond the set begin a new one.
+#[derive(Clone, Copy, Debug)]
+pub struct StratifiedSampler {
+    samples_per_pixel: u32,
+    columns: u32,
+    rows: u32,
+    seed: u64,
+}
+
+impl StratifiedSampler {
+    /// A sampler for sets of `samples_per_pixel` samples, at least 1; each seed gives another image.
+    pub fn new(samples_per_pixel: u32, seed: u64) -> Self {
+        let samples_per_pixel = samples_per_pixel.max(1);
+        let columns = samples_per_pixel.isqrt();
+        Self { samples_per_pixel, columns, rows: samples_per_pixel.div_ceil(columns), seed }
+    }
+
+    /// The random bits that a set of samples shares in one dimension, and the place within the set.
+    #[inline]
+    fn shared(&self, id: SampleId, dimension: u32) -> (u64, u32) {
+        let set = SampleId { pixel: id.pixel, index: id.index / self.samples_per_pixel };
+        // The complement keeps these bits apart from those of the jitter, which use the seed itself.
+        (hash(!self.seed, set, dimension), id.index % self.samples_per_pixel)
+    }
+}
+
+impl Sampler for StratifiedSampler {
+    fn samples_per_pixel(&self) -> u32 {
+        self.samples_per_pixel
+    }
+
+    #[inline]
+    fn get_1d(&self, id: SampleId, dimension: u32) -> f32 {
+        let (key, place) = self.shared(id, dimension);
+        let cell = permute(place, self.samples_per_pixel, key);
+        let jitter = unit_float((hash(self.seed, id, dimension) >> 32) as u32);
+        within(cell, jitter, self.samples_per_pixel)
+    }
+
+    #[inline]
+    fn get_2d(&self, id: SampleId, dimension: u32) -> Vec2 {
+        let (key, place) = self.shared(id, dimension);
+        let cell = permute(place, self.columns * self.rows, key);
+        let bits = hash(self.seed, id, dimension);
+        Vec2::new(
+            within(cell % self.columns, unit_float((bits >> 32) as u32), self.columns),
+            within(cell / self.columns, unit_float(bits as u32), self.rows),
+        )
+    }
+}
+
+/// The point at `jitter` of the way through cell `cell` of `cells`; rounding never makes it 1.
+#[inline]
+fn within(cell: u32, jitter: f32, cells: u32) -> f32 {
+    ((cell as f32 + jitter) / cells as f32).min(ONE_MINUS_EPSILON)
+}

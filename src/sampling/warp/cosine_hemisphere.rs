@@ -1,0 +1,33 @@
+//! The hemisphere around +z, with a density in proportion to cos θ.
+//!
+//! Malley's method (PBRT 3rd edition, section 13.6.3): points uniform on the unit disk, lifted up to
+//! the hemisphere. The disk's element r dr dφ is sin θ cos θ dθ dφ, so the density over solid angle
+//! is C cos θ, and its integral over the hemisphere, C π, has to be 1. In polar form the same is
+//! cos θ = √(1 - u), formula 5.8 of the chapter.
+
+use std::f32::consts::FRAC_1_PI;
+
+use glam::{Vec2, Vec3};
+
+use super::concentric_disk;
+
+/// A unit vector with z ≥ 0; z = 0 only where u is on the border of the square.
+#[inline]
+pub fn sample(u: Vec2) -> Vec3 {
+    let (r, phi) = concentric_disk::polar(u);
+    let disk = r * Vec2::from_angle(phi);
+    // (1 - r)(1 + r), not 1 - x² - y²: grazing directions keep their digits and stay above the surface.
+    disk.extend(((1.0 - r) * (1.0 + r)).sqrt())
+}
+
+/// Density over solid angle, cos θ / π; zero below the horizon.
+#[inline]
+pub fn pdf(cos_theta: f32) -> f32 {
+    cos_theta.max(0.0) * FRAC_1_PI
+}
+
+/// The u that [`sample`] takes to `w`.
+#[inline]
+pub fn inverse(w: Vec3) -> Vec2 {
+    concentric_disk::inverse(w.truncate())
+}

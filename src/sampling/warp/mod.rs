@@ -1,0 +1,30 @@
+//! Warps of the unit square, each a module with the same three functions: `sample` takes u in
+//! `[0, 1)²` to the domain, `pdf` is the density of what comes out, and `inverse` leads back to u.
+//!
+//! All follow from the same recipe (PBRT 3rd edition, section 13.6): write the density in polar or
+//! spherical coordinates, find the marginal of the first and the conditional of the second, and set
+//! each cumulative distribution equal to one component of u.
+
+pub mod concentric_disk;
+pub mod cosine_hemisphere;
+pub mod uniform_cone;
+pub mod uniform_disk;
+pub mod uniform_hemisphere;
+pub mod uniform_sphere;
+pub mod uniform_triangle;
+
+use std::f32::consts::TAU;
+
+use glam::Vec2;
+
+/// The share of a full turn at which (x, y) stands, in `[0, 1)`.
+fn turn(x: f32, y: f32) -> f32 {
+    let share = y.atan2(x) / TAU;
+    let turn = if share < 0.0 { share + 1.0 } else { share };
+    turn.min(crate::geometry::float::ONE_MINUS_EPSILON)
+}
+
+/// The unit vector at `turn` of a full turn.
+fn unit_circle(turn: f32) -> Vec2 {
+    Vec2::from_angle(TAU * turn)
+}

@@ -1,0 +1,154 @@
+//! [`SceneBuilder`]: scenes without a file.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::{FilmSettings, IntegratorSettings, SamplerSettings, Scene, Shape};
+use crate::accel::Accel;
+use crate::camera::{Camera, CameraError, CameraSettings};
+use crate::film::{Display, Window};
+use crate::light::Light;
+use crate::material::Material;
+use crate::shape::{MeshError, TriangleMesh};
+
+/// Why a scene cannot be built.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SceneError {
+    /// The camera cannot be built.
+    #[error(transparent)]
+    Camera(#[from] CameraError),
+    /// The part of the image to render is empty or sticks out.
+    #[error("the film's crop {0:?} is empty or reaches beyond its resolution of {1} x {2}")]
+    Crop(Window, u32, u32),
+    /// There is nothing to average.
+    #[error("the sampler's spp is 0: it has to be at least 1")]
+    NoSamples,
+    /// A shape is made of nothing that the scene knows.
+    #[error("shape {shape:?} wants material {material:?}, which the scene does not have")]
+    UnknownMaterial {
+        /// The shape's name.
+        shape: String,
+        /// The name it asks for.
+        material: String,
+    },
+    /// A mesh is broken.
+    #[error("shape {0:?}: {1}")]
+    Mesh(String, MeshError),
+}
+
+/// Collects a scene part by part, in any order, and checks it as a whole at the end.
+#[derive(Default)]
+pub struct SceneBuilder {
+    camera: CameraSettings,
+    film: FilmSettings,
+    sampler: SamplerSettings,
+    integrator: IntegratorSettings,
+    materials: BTreeMap<String, Arc<dyn Material>>,
+    shapes: Vec<(String, TriangleMesh, String)>,
+    lights: Vec<Arc<dyn Light>>,
+}
+
+impl SceneBuilder {
+    /// Places the camera.
+    pub fn camera(self, camera: CameraSettings) -> Self {
+        Self { camera, ..self }
+    }
+
+    /// Sets all of the film.
+    pub fn film(self, film: FilmSettings) -> Self {
+        Self { film, ..self }
+    }
+
+    /// Sets the size of the image: columns and rows.
+    pub fn resolution(self, width: u32, height: u32) -> Self {
+        let film = FilmSettings { resolution: (width, height).into(), ..self.film };
+        self.film(film)
+    }
+
+    /// Renders only a part of the image.
+    pub fn crop(self, window: Window) -> Self {
+        let film = FilmSettings { crop: Some(window), ..self.film };
+        self.film(film)
+    }
+
+    /// Sets the curve for PNG files.
+    pub fn display(self, display: Display) -> Self {
+        let film = FilmSettings { display, ..self.film };
+        self.film(film)
+    }
+
+    /// Chooses the samples.
+    pub fn sampler(self, sampler: SamplerSettings) -> Self {
+        Self { sampler, ..self }
+    }
+
+    /// Chooses how light is computed.
+    pub fn integrator(self, integrator: IntegratorSettings) -> Self {
+        Self { integrator, ..self }
+    }
+
+    /// Adds a material; one of the same name is replaced.
+    pub fn material(self, name: impl Into<String>, material: impl Material + 'static) -> Self {
+        self.shared_material(name, Arc::new(material))
+    }
+
+    /// Adds a material that may be held elsewhere too.
+    pub fn shared_material(mut self, name: impl Into<String>, material: Arc<dyn Material>) -> Self {
+        self.materials.insert(name.into(), material);
+        self
+    }
+
+    /// Adds a mesh in world space, made of the material of that name.
+    pub fn shape(
+        mut self,
+        name: impl Into<String>,
+        mesh: TriangleMesh,
+        material: impl Into<String>,
+    ) -> Self {
+        self.shapes.push((name.into(), mesh, material.into()));
+        self
+    }
+
+    /// Adds a light.
+    pub fn light(mut self, light: impl Light + 'static) -> Self {
+        self.lights.push(Arc::new(light));
+        self
+    }
+
+    /// Checks the scene and builds its tree.
+    pub fn build(self) -> Result<Scene, SceneError> {
+        let FilmSettings { resolution, .. } = self.film;
+        let camera = Camera::new(&self.camera, resolution)?;
+        let window = self.film.window();
+        if window.min.cmpge(window.max).any() || window.max.cmpgt(resolution).any() {
+            return Err(SceneError::Crop(window, resolution.x, resolution.y));
+        }
+        if self.sampler.spp == 0 {
+            return Err(SceneError::NoSamples);
+        }
+        let mut shapes = Vec::with_capacity(self.shapes.len());
+        let mut meshes = Vec::with_capacity(self.shapes.len());
+        for (name, mesh, material) in self.shapes {
+            mesh.check().map_err(|error| SceneError::Mesh(name.clone(), error))?;
+            let Some(found) = self.materials.get(&material) else {
+                return Err(SceneError::UnknownMaterial { shape: name, material });
+            };
+            shapes.push(Shape { name, material: Arc::clone(found) });
+            meshes.push(mesh);
+        }
+        let start = Instant::now();
+        let accel = Accel::build(&meshes);
+        Ok(Scene {
+            camera,
+            film: self.film,
+            sampler: self.sampler,
+            integrator: self.integrator,
+            shapes,
+            meshes,
+            lights: self.lights,
+            accel,
+            build_seconds: start.elapsed().as_secs_f64(),
+        })
+    }
+}

@@ -1,0 +1,129 @@
+//! Scenes: what there is to be rendered, and how.
+
+mod builder;
+mod settings;
+
+use std::sync::Arc;
+
+pub use builder::{SceneBuilder, SceneError};
+pub use settings::{Display, FilmSettings, IntegratorSettings, SamplerKind, SamplerSettings};
+
+use crate::accel::{Accel, Hit};
+use crate::camera::Camera;
+use crate::geometry::Ray;
+use crate::interaction::SurfaceInteraction;
+use crate::light::Light;
+use crate::material::Material;
+use crate::shape::TriangleMesh;
+
+/// A checked scene, ready to be rendered. It is made by [`Scene::builder`] or read from a file.
+///
+/// ```
+/// use lobe::glam::Vec3;
+/// use lobe::scene::{IntegratorSettings, Scene};
+/// use lobe::{CameraSettings, MatteMaterial, PointLight, Spectrum, TriangleMesh};
+///
+/// let floor = TriangleMesh {
+///     positions: vec![Vec3::NEG_X, Vec3::X, Vec3::Z * 2.0],
+///     indices: vec![[0, 1, 2]],
+///     ..TriangleMesh::default()
+/// };
+/// let scene = Scene::builder()
+///     .camera(CameraSettings { eye: Vec3::new(0.0, 2.0, -1.0), look_at: Vec3::Z, ..Default::default() })
+///     .resolution(64, 48)
+///     .integrator(IntegratorSettings::Direct)
+///     .material("clay", MatteMaterial::new([0.6, 0.3, 0.2]))
+///     .shape("floor", floor, "clay")
+///     .light(PointLight::new(Vec3::Y, Spectrum::splat(10.0)))
+///     .build()?;
+/// assert_eq!(scene.accel().triangle_count(), 1);
+/// # Ok::<(), lobe::scene::SceneError>(())
+/// ```
+pub struct Scene {
+    camera: Camera,
+    film: FilmSettings,
+    sampler: SamplerSettings,
+    integrator: IntegratorSettings,
+    shapes: Vec<Shape>,
+    meshes: Vec<TriangleMesh>,
+    lights: Vec<Arc<dyn Light>>,
+    accel: Accel,
+    build_seconds: f64,
+}
+
+/// What there is to know of a mesh beside its triangles.
+struct Shape {
+    name: String,
+    material: Arc<dyn Material>,
+}
+
+impl Scene {
+    /// An empty scene to add to.
+    pub fn builder() -> SceneBuilder {
+        SceneBuilder::default()
+    }
+
+    /// The camera.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// The film's settings.
+    pub fn film(&self) -> &FilmSettings {
+        &self.film
+    }
+
+    /// The sampler's settings.
+    pub fn sampler(&self) -> &SamplerSettings {
+        &self.sampler
+    }
+
+    /// Changes the sampler's settings: they take no part in what is built.
+    pub fn set_sampler(&mut self, sampler: SamplerSettings) {
+        self.sampler = sampler;
+    }
+
+    /// The integrator's settings.
+    pub fn integrator(&self) -> &IntegratorSettings {
+        &self.integrator
+    }
+
+    /// The lights.
+    pub fn lights(&self) -> &[Arc<dyn Light>] {
+        &self.lights
+    }
+
+    /// The tree of all triangles.
+    pub fn accel(&self) -> &Accel {
+        &self.accel
+    }
+
+    /// The shapes' names and meshes, in the order in which they were added.
+    pub fn shapes(&self) -> impl Iterator<Item = (&str, &TriangleMesh)> {
+        self.shapes.iter().map(|s| s.name.as_str()).zip(&self.meshes)
+    }
+
+    /// How long the tree took to build, in seconds.
+    pub fn build_seconds(&self) -> f64 {
+        self.build_seconds
+    }
+
+    /// What is known about a hit of `ray`.
+    ///
+    /// # Panics
+    /// If `hit` is none of this scene's: a miss, or one from elsewhere.
+    #[inline]
+    pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction<'_> {
+        let mesh = &self.meshes[hit.shape as usize];
+        SurfaceInteraction::on_triangle(mesh, hit.triangle as usize, hit.b, -ray.d)
+    }
+
+    /// What the surface is made of at a hit.
+    ///
+    /// # Panics
+    /// Like [`Scene::interaction`].
+    #[inline]
+    pub fn material(&self, hit: &Hit) -> &dyn Material {
+        &*self.shapes[hit.shape as usize].material
+    }
+}
