@@ -24,8 +24,9 @@ fn read() -> Dragon {
     for (n, line) in text.lines().enumerate() {
         let (kind, rest) = line.split_once(' ').unwrap_or((line, ""));
         let mut words = rest.split(' ');
-        let mut three =
-            || [0; 3].map(|_| words.next().unwrap_or_else(|| panic!("line {}: three words", n + 1)));
+        let mut three = || {
+            [0; 3].map(|_| words.next().unwrap_or_else(|| panic!("line {}: three words", n + 1)))
+        };
         let number = |w: &str| w.parse::<f64>().unwrap_or_else(|e| panic!("line {}: {e}", n + 1));
         match kind {
             "#" => {}
@@ -112,13 +113,18 @@ fn one_fan_at_each_vertex() {
         let first = *link.keys().next().unwrap_or_else(|| panic!("vertex {v} is in no triangle"));
         let (mut at, mut steps) = (first, 0);
         while steps < link.len() {
-            at = *link.get(&at).unwrap_or_else(|| panic!("the triangles about vertex {v} do not close"));
+            at = *link
+                .get(&at)
+                .unwrap_or_else(|| panic!("the triangles about vertex {v} do not close"));
             steps += 1;
             if at == first {
                 break;
             }
         }
-        assert!(at == first && steps == link.len(), "the triangles about vertex {v} are not one fan");
+        assert!(
+            at == first && steps == link.len(),
+            "the triangles about vertex {v} are not one fan"
+        );
     }
 }
 
@@ -172,7 +178,8 @@ fn no_degenerate_triangle() {
         let [a, b, c] = dragon.corners(t);
         let n = dragon.normal2(t);
         // Height over the longest side, as a part of that side.
-        let longest = [minus(b, a), minus(c, b), minus(a, c)].iter().map(|&e| dot(e, e)).fold(0.0, f64::max);
+        let longest =
+            [minus(b, a), minus(c, b), minus(a, c)].iter().map(|&e| dot(e, e)).fold(0.0, f64::max);
         let height = dot(n, n).sqrt() / longest;
         assert!(height > 1e-3, "triangle {t:?} is a sliver: {height}");
     }
@@ -215,7 +222,12 @@ fn stands_on_the_ground_about_the_origin() {
     assert_eq!(low[1], 0.0, "the lowest point");
     assert!((2.7..=3.0).contains(&high[1]), "height {}", high[1]);
     for (axis, extent) in [(0, 4.1..=4.3), (2, 1.7..=2.1)] {
-        assert!((low[axis] + high[axis]).abs() < 1e-5, "axis {axis}: {} to {}", low[axis], high[axis]);
+        assert!(
+            (low[axis] + high[axis]).abs() < 1e-5,
+            "axis {axis}: {} to {}",
+            low[axis],
+            high[axis]
+        );
         let size = high[axis] - low[axis];
         assert!(extent.contains(&size), "axis {axis}: extent {size}");
     }

@@ -37,7 +37,11 @@ struct Candidate {
 impl Ord for Candidate {
     /// The cheapest is the greatest, as the heap wants it.
     fn cmp(&self, other: &Candidate) -> Ordering {
-        other.cost.total_cmp(&self.cost).then(other.edge.cmp(&self.edge)).then(other.stamp.cmp(&self.stamp))
+        other
+            .cost
+            .total_cmp(&self.cost)
+            .then(other.edge.cmp(&self.edge))
+            .then(other.stamp.cmp(&self.stamp))
     }
 }
 
@@ -107,7 +111,8 @@ impl Decimation<'_> {
             if d.edges.twin[e] < e as u32 { d.place(e as u32).1 } else { 0.0 }
         });
         let candidates = costs.iter().enumerate().filter(|(e, _)| d.edges.twin[*e] < *e as u32);
-        d.heap = candidates.map(|(e, &cost)| Candidate { cost, edge: e as u32, stamp: 0 }).collect();
+        d.heap =
+            candidates.map(|(e, &cost)| Candidate { cost, edge: e as u32, stamp: 0 }).collect();
         Ok(d)
     }
 
@@ -218,7 +223,12 @@ impl Decimation<'_> {
 }
 
 /// Planes of the triangles about `v`, weighted by area, and a weak wish to stay.
-fn vertex_quadric(mesh: &Mesh, edges: &HalfEdges, v: u32, weight: impl Fn(DVec3) -> f64) -> Quadric {
+fn vertex_quadric(
+    mesh: &Mesh,
+    edges: &HalfEdges,
+    v: u32,
+    weight: impl Fn(DVec3) -> f64,
+) -> Quadric {
     let p = mesh.positions[v as usize];
     let weight = weight(p);
     let mut sum = Quadric::default();

@@ -57,7 +57,8 @@ impl<'a> Field<'a> {
     fn cell(&self, p: DVec3) -> &Cell {
         let q = (p - self.low) / CELL;
         let index = |x: f64, n: usize| (x.max(0.0) as usize).min(n - 1);
-        let [i, j, k] = [index(q.x, self.size[0]), index(q.y, self.size[1]), index(q.z, self.size[2])];
+        let [i, j, k] =
+            [index(q.x, self.size[0]), index(q.y, self.size[1]), index(q.z, self.size[2])];
         let [blocks_x, blocks_y, _] = self.size.map(|n| n / BLOCK);
         let block = (k / BLOCK * blocks_y + j / BLOCK) * blocks_x + i / BLOCK;
         &self.cells[block * BLOCK.pow(3) + (k % BLOCK * BLOCK + j % BLOCK) * BLOCK + i % BLOCK]
@@ -133,7 +134,8 @@ fn matter(sculpture: &Sculpture, centre: DVec3, list: &[u16], reach: f64) -> Vec
         |a: &u16, b: &u16| sculpture.group_of(*a as usize).0 == sculpture.group_of(*b as usize).0;
     for run in list.chunk_by(same_group) {
         let group = sculpture.group_of(run[0] as usize).1;
-        let distances: Vec<f64> = run.iter().map(|&i| sculpture.distance(i as usize, centre)).collect();
+        let distances: Vec<f64> =
+            run.iter().map(|&i| sculpture.distance(i as usize, centre)).collect();
         let nearest = distances.iter().copied().fold(f64::INFINITY, f64::min);
         for (&i, d) in run.iter().zip(distances) {
             let can_touch = d - reach < 2.0 * group.blend + group.inner + 0.1;

@@ -30,9 +30,14 @@ pub enum Defect {
 impl fmt::Display for Defect {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Defect::RepeatedVertex { triangle } => write!(f, "triangle {triangle} names a vertex twice"),
+            Defect::RepeatedVertex { triangle } => {
+                write!(f, "triangle {triangle} names a vertex twice")
+            }
             Defect::RepeatedEdge { from, to } => {
-                write!(f, "the edge from vertex {from} to {to} has two triangles in the same direction")
+                write!(
+                    f,
+                    "the edge from vertex {from} to {to} has two triangles in the same direction"
+                )
             }
             Defect::OpenEdge { from, to } => {
                 write!(f, "the edge from vertex {from} to {to} has a triangle on one side only")

@@ -40,12 +40,17 @@ pub fn extract(field: &Field, h: f64, threads: usize) -> Mesh {
     let (low, high) = field.bounds();
     let blocks = surface_blocks(field, low, high, h);
     let patches = parallel::map(&blocks, threads, |&block| march_block(field, low, h, block));
-    let mut vertices: Vec<(u64, DVec3)> = patches.iter().flat_map(|p| p.vertices.iter().copied()).collect();
+    let mut vertices: Vec<(u64, DVec3)> =
+        patches.iter().flat_map(|p| p.vertices.iter().copied()).collect();
     vertices.sort_unstable_by_key(|v| v.0);
     vertices.dedup_by_key(|v| v.0);
     let number = |key: &u64| vertices.partition_point(|v| v.0 < *key) as u32;
     let named = parallel::map(&patches, threads, |patch| {
-        patch.triangles.iter().map(|t| [number(&t[0]), number(&t[1]), number(&t[2])]).collect::<Vec<_>>()
+        patch
+            .triangles
+            .iter()
+            .map(|t| [number(&t[0]), number(&t[1]), number(&t[2])])
+            .collect::<Vec<_>>()
     });
     drop(patches);
     let triangles = named.into_iter().flatten().collect();
@@ -98,8 +103,8 @@ fn march_block(field: &Field, low: DVec3, h: f64, block: [i64; 3]) -> Patch {
             };
             let side = step(cube, axis);
             // The side's corners, counter-clockwise about the axis.
-            let ring =
-                [side, step(side, v), step(step(side, v), w), step(side, w)].map(|c| corners[place(c)]);
+            let ring = [side, step(side, v), step(step(side, v), w), step(side, w)]
+                .map(|c| corners[place(c)]);
             let (a, b) = (centres[place(cube)], centres[place(side)]);
             for r in 0..4 {
                 patch.cut([a, b, ring[r], ring[(r + 1) % 4]], low, h);

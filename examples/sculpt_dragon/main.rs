@@ -61,7 +61,8 @@ fn fail(sentence: &str) -> ExitCode {
 fn run(triangles: usize, file: &Path) -> Result<(), Box<dyn Error>> {
     let start = Instant::now();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let dragon = sculpt::sculpt(triangles, threads).map_err(|fault| format!("nothing written: {fault}"))?;
+    let dragon =
+        sculpt::sculpt(triangles, threads).map_err(|fault| format!("nothing written: {fault}"))?;
     let name = |error| format!("cannot write {}: {error}", file.display());
     let mut out = BufWriter::new(File::create(file).map_err(name)?);
     obj::write(&mut out, &dragon.mesh, &dragon.normals).map_err(name)?;
@@ -69,7 +70,12 @@ fn run(triangles: usize, file: &Path) -> Result<(), Box<dyn Error>> {
 
     let mesh = &dragon.mesh;
     let (low, high) = mesh.bounds();
-    println!("{}: {} vertices, {} triangles", file.display(), mesh.positions.len(), mesh.triangles.len());
+    println!(
+        "{}: {} vertices, {} triangles",
+        file.display(),
+        mesh.positions.len(),
+        mesh.triangles.len()
+    );
     println!(
         "bounds: ({:.3}, {:.3}, {:.3}) to ({:.3}, {:.3}, {:.3})",
         low.x, low.y, low.z, high.x, high.y, high.z

@@ -39,7 +39,9 @@ pub fn parse(mut arguments: impl Iterator<Item = String>) -> Result<Request, Str
             }
             "-o" => file = arguments.next().ok_or("-o needs a file name after it")?.into(),
             other => {
-                return Err(format!("unknown argument `{other}`; expected --triangles N, -o FILE or --help"));
+                return Err(format!(
+                    "unknown argument `{other}`; expected --triangles N, -o FILE or --help"
+                ));
             }
         }
     }

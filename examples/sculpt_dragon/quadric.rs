@@ -50,7 +50,11 @@ impl Quadric {
 
     fn matrix(&self) -> DMat3 {
         let (d, m) = (self.diagonal, self.mixed);
-        DMat3::from_cols(DVec3::new(d.x, m.z, m.y), DVec3::new(m.z, d.y, m.x), DVec3::new(m.y, m.x, d.z))
+        DMat3::from_cols(
+            DVec3::new(d.x, m.z, m.y),
+            DVec3::new(m.z, d.y, m.x),
+            DVec3::new(m.y, m.x, d.z),
+        )
     }
 
     /// The error at `p`, not below 0.

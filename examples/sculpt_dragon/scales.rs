@@ -41,8 +41,11 @@ impl Skin {
             Skin::Scales { around, depth, belly } => {
                 let width = TAU / f64::from(around);
                 let below = PI - theta.abs();
-                let plates =
-                    if belly > 0.0 { 1.0 - smoothstep(belly - 0.06, belly + 0.06, below) } else { 0.0 };
+                let plates = if belly > 0.0 {
+                    1.0 - smoothstep(belly - 0.06, belly + 0.06, below)
+                } else {
+                    0.0
+                };
                 let mut height = 0.0;
                 if plates < 1.0 {
                     height += (1.0 - plates) * scale_height(u, theta / width);

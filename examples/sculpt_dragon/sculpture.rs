@@ -66,11 +66,6 @@ impl Sculpture {
         self.push(Shape::Ellipsoid { centre, frame, radii }, (centre, f64::INFINITY));
     }
 
-    /// Adds a ball.
-    pub fn ball(&mut self, centre: DVec3, radius: f64) {
-        self.ellipsoid(centre, DMat3::IDENTITY, DVec3::splat(radius));
-    }
-
     /// Adds everything below a height.
     pub fn below(&mut self, height: f64) {
         self.push(Shape::Below { height }, (DVec3::ZERO, f64::INFINITY));
@@ -122,7 +117,11 @@ impl Sculpture {
                     continue;
                 }
                 let d = self.distance(shape, p);
-                inside = if group.inner > 0.0 { smooth_min(inside, d, group.inner) } else { inside.min(d) };
+                inside = if group.inner > 0.0 {
+                    smooth_min(inside, d, group.inner)
+                } else {
+                    inside.min(d)
+                };
             }
             field = match group.join {
                 Join::Add => smooth_min(field, inside, group.blend),

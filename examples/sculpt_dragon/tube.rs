@@ -127,7 +127,8 @@ impl Tube {
         let offset = p - c.xyz();
         let length = offset.length();
         let radius = c.w.max(1e-3);
-        let plain = matches!(self.skin, Skin::Smooth) && self.oval == 1.0 && self.muscles.is_empty();
+        let plain =
+            matches!(self.skin, Skin::Smooth) && self.oval == 1.0 && self.muscles.is_empty();
         if plain || length < 1e-9 {
             return length - radius;
         }
@@ -139,7 +140,8 @@ impl Tube {
         let on_cap = (i == 0 && t == 0.0) || (i + 1 == self.spans.len() && t == 1.0);
         let sideways = if on_cap { (x * x + y * y) / (length * length) } else { 1.0 };
         let theta = y.atan2(x);
-        let section = 1.0 + sideways * (self.section(x, y) - 1.0 + self.swelling(i as f64 + t, theta));
+        let section =
+            1.0 + sideways * (self.section(x, y) - 1.0 + self.swelling(i as f64 + t, theta));
         let bare = length - radius * section;
         // Far from the skin its relief changes nothing that matters.
         if bare.abs() > RELIEF_REACH || matches!(self.skin, Skin::Smooth) {

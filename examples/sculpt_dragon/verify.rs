@@ -31,7 +31,9 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Fault::Surface(defect) => write!(f, "not a closed, oriented surface: {defect}"),
-            Fault::Fans { vertex } => write!(f, "the triangles about vertex {vertex} are not one fan"),
+            Fault::Fans { vertex } => {
+                write!(f, "the triangles about vertex {vertex} are not one fan")
+            }
             Fault::Components(n) => write!(f, "{n} separate pieces instead of 1"),
             Fault::Inward(volume) => write!(f, "the triangles look inwards: volume {volume}"),
             Fault::Degenerate { triangle } => write!(f, "triangle {triangle} has no area"),

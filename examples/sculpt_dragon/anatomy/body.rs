@@ -1,5 +1,7 @@
 //! Neck, trunk and tail in one curve, and the crest of spikes along its back.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 
 use super::key;
@@ -32,7 +34,7 @@ pub fn spine() -> Tube {
     ];
     let muscles = [
         // Breast.
-        Muscle { at: 4.6, along: 1.2, angle: 3.14, around: 1.0, height: 0.10 },
+        Muscle { at: 4.6, along: 1.2, angle: PI, around: 1.0, height: 0.10 },
         // Shoulder blades.
         Muscle { at: 5.3, along: 1.0, angle: 1.3, around: 0.9, height: 0.12 },
         Muscle { at: 5.3, along: 1.0, angle: -1.3, around: 0.9, height: 0.12 },
@@ -60,7 +62,8 @@ pub fn crest(spine: &Tube) -> Vec<Tube> {
             let p: DVec3 = root + (s.back * up + lean * along) * height;
             p.extend(r)
         };
-        let keys = [place(-0.2, -0.2, base), place(0.45, 0.15, 0.62 * base), place(1.0, 0.95, 0.008)];
+        let keys =
+            [place(-0.2, -0.2, base), place(0.45, 0.15, 0.62 * base), place(1.0, 0.95, 0.008)];
         // Flattened across the body: the long axis of the section runs along it.
         spikes.push(Tube::new(&keys).side(s.across).oval(0.45));
         at += (0.11 + 0.30 * s.radius) / spine.speed(at);
@@ -85,8 +88,9 @@ pub fn flame(spine: &Tube) -> Vec<Tube> {
     let blade = |[before, turn, length, aside]: [f64; 4]| {
         let s = spine.station(spine.len() as f64 - before);
         let out = (s.tangent * turn.cos() + s.back * turn.sin() + s.across * aside).normalize();
-        let place =
-            |along: f64, lift: f64, r: f64| (s.centre + (out * along + DVec3::Y * lift) * length).extend(r);
+        let place = |along: f64, lift: f64, r: f64| {
+            (s.centre + (out * along + DVec3::Y * lift) * length).extend(r)
+        };
         let keys = [
             place(0.0, 0.0, 0.05),
             place(0.25, -0.06, 0.075),

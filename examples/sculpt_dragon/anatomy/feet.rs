@@ -6,7 +6,8 @@ use crate::sculpture::{Join, Sculpture};
 use crate::tube::Tube;
 
 /// Angles of the toes from the foot's heading, in degrees, and their lengths.
-const TOES: [(f64, f64); 5] = [(-46.0, 0.86), (-16.0, 1.0), (15.0, 1.0), (45.0, 0.86), (172.0, 0.62)];
+const TOES: [(f64, f64); 5] =
+    [(-46.0, 0.86), (-16.0, 1.0), (15.0, 1.0), (45.0, 0.86), (172.0, 0.62)];
 
 /// A foot below `ankle` that stands at `place` and points to `heading` (radians about y, 0 being -x,
 /// positive towards -z).

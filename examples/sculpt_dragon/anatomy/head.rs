@@ -75,7 +75,7 @@ fn flesh(s: &mut Sculpture, skull: &Skull) {
         ],
         1.0,
     ));
-    skull.ellipsoid(s, [0.70, 0.085, 0.0], [0.105, 0.08, 0.115]);
+    skull.ellipsoid(s, [0.70, 0.085, 0.0], [0.105, 0.08, 0.10]);
     // Wrinkles across the snout.
     for (f, u, wide) in [(0.36, 0.135, 0.06), (0.44, 0.12, 0.06), (0.52, 0.118, 0.06)] {
         s.cone(skull.at(f, u, wide), 0.026 * SIZE, skull.at(f, u, -wide), 0.026 * SIZE);
@@ -83,6 +83,15 @@ fn flesh(s: &mut Sculpture, skull: &Skull) {
     for m in SIDES {
         // Nostrils' wings, cheeks, lips.
         skull.ellipsoid(s, [0.70, 0.135, 0.085 * m], [0.075, 0.05, 0.045]);
+        s.bone(&skull.keys(
+            &[
+                [0.74, 0.12, 0.075, 0.03],
+                [0.66, 0.18, 0.105, 0.034],
+                [0.58, 0.205, 0.13, 0.022],
+                [0.52, 0.19, 0.15, 0.008],
+            ],
+            m,
+        ));
         skull.ellipsoid(s, [0.02, -0.07, 0.15 * m], [0.17, 0.13, 0.10]);
         s.bone(&skull.keys(
             &[
@@ -132,15 +141,15 @@ fn eyes(s: &mut Sculpture, skull: &Skull) {
             m,
         ));
         // Lower lid.
-        s.bone(
-            &skull.keys(
-                &[[0.28, 0.045, 0.13, 0.018], [0.19, 0.02, 0.165, 0.022], [0.09, 0.05, 0.185, 0.018]],
-                m,
-            ),
-        );
+        s.bone(&skull.keys(
+            &[[0.28, 0.045, 0.13, 0.018], [0.19, 0.02, 0.165, 0.022], [0.09, 0.05, 0.185, 0.018]],
+            m,
+        ));
         // Ear.
-        let ear = skull
-            .keys(&[[-0.12, 0.03, 0.19, 0.05], [-0.24, 0.08, 0.28, 0.075], [-0.42, 0.12, 0.36, 0.01]], m);
+        let ear = skull.keys(
+            &[[-0.12, 0.03, 0.19, 0.05], [-0.24, 0.08, 0.28, 0.075], [-0.42, 0.12, 0.36, 0.01]],
+            m,
+        );
         s.tube(Tube::new(&ear).side(skull.side()).oval(0.4));
     }
 }

@@ -52,8 +52,13 @@ fn locks(s: &mut Sculpture, skull: &Skull, m: f64) {
 }
 
 fn beard(s: &mut Sculpture, skull: &Skull) {
-    const TUFTS: [[f64; 3]; 5] =
-        [[0.50, 0.0, 0.30], [0.42, 0.06, 0.24], [0.42, -0.06, 0.24], [0.30, 0.09, 0.18], [0.30, -0.09, 0.18]];
+    const TUFTS: [[f64; 3]; 5] = [
+        [0.50, 0.0, 0.30],
+        [0.42, 0.06, 0.24],
+        [0.42, -0.06, 0.24],
+        [0.30, 0.09, 0.18],
+        [0.30, -0.09, 0.18],
+    ];
     for [f, side, length] in TUFTS {
         let u = -0.14 - 0.50 * f - 0.05;
         let keys = [

@@ -61,8 +61,11 @@ fn teeth(s: &mut Sculpture, skull: &Skull) {
         }
         // Incisors under the nose.
         for (f, side) in [(0.755, 0.07), (0.775, 0.025)] {
-            let tooth =
-                [[f, 0.02, side, 0.026], [f + 0.006, -0.03, side, 0.019], [f - 0.01, -0.075, side, 0.004]];
+            let tooth = [
+                [f, 0.02, side, 0.026],
+                [f + 0.006, -0.03, side, 0.019],
+                [f - 0.01, -0.075, side, 0.004],
+            ];
             s.bone(&skull.keys(&tooth, m));
         }
         for i in 0..6 {
