@@ -1,9 +1,9 @@
 //! The promises that `assets/dragon.obj` makes, checked on the file alone.
 //!
-//! Truth: a closed, oriented two-manifold has every directed edge once and its reverse once, and one fan
-//! of triangles at each vertex; the volume enclosed by triangles that look outwards is positive
-//! (divergence theorem). Each check was seen to fail on a file broken on purpose; the break stands beside
-//! it.
+//! Truth: a closed, oriented two-manifold has every directed edge once and its reverse once, and
+//! one fan of triangles at each vertex; the volume enclosed by triangles that look outwards is
+//! positive (divergence theorem). Each check was seen to fail on a file broken on purpose; the
+//! break stands beside it.
 
 use std::collections::{HashMap, HashSet};
 

@@ -1,13 +1,15 @@
 //! Decimation by edge collapse, cheapest first.
 //!
-//! Costs and places come from error quadrics (Garland & Heckbert 1997). A collapse is refused if it
-//! - would change the topology: the two ends must have exactly two common neighbours (the link condition
-//!   of Dey, Edelsbrunner, Guha & Nekhayev, "Topology preserving edge contraction", 1999);
+//! Costs and places come from error quadrics (Garland & Heckbert 1997). A collapse is refused if
+//! it
+//! - would change the topology: the two ends must have exactly two common neighbours (the link
+//!   condition of Dey, Edelsbrunner, Guha & Nekhayev, "Topology preserving edge contraction",
+//!   1999);
 //! - would turn a triangle by more than about 75 degrees;
 //! - would leave a triangle that is a sliver and worse than those before.
 //!
-//! So a closed two-manifold stays one, with the same genus. The order is fixed by cost and, among equals,
-//! by edge number: the result does not depend on anything else.
+//! So a closed two-manifold stays one, with the same genus. The order is fixed by cost and, among
+//! equals, by edge number: the result does not depend on anything else.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -19,8 +21,8 @@ use crate::mesh::Mesh;
 use crate::parallel;
 use crate::quadric::Quadric;
 
-/// Weight of a vertex's own place against its planes. It keeps the minimum well defined on flat ground
-/// and spreads the vertices evenly there.
+/// Weight of a vertex's own place against its planes. It keeps the minimum well defined on flat
+/// ground and spreads the vertices evenly there.
 const STAY: f64 = 1e-5;
 /// Least quality of a triangle that a collapse may make, 1 being equilateral.
 const QUALITY: f64 = 0.08;
@@ -69,7 +71,8 @@ struct Decimation<'a> {
     heap: BinaryHeap<Candidate>,
 }
 
-/// Collapses edges of the closed `mesh` until at most `target` triangles remain, or no collapse is allowed.
+/// Collapses edges of the closed `mesh` until at most `target` triangles remain, or no collapse is
+/// allowed.
 ///
 /// Errors about a place count `weight` times, so that triangles gather where they are wanted.
 pub fn decimate(
@@ -177,7 +180,8 @@ impl Decimation<'_> {
         common == 2 && wings.iter().all(|&w| self.edges.around(w).count() > 3)
     }
 
-    /// Whether moving `v` to `place` leaves good triangles around it, those that also hold `other` aside.
+    /// Whether moving `v` to `place` leaves good triangles around it, those that also hold `other`
+    /// aside.
     fn shape_allows(&self, v: u32, other: u32, place: DVec3) -> bool {
         self.edges.around(v).all(|e| {
             let (q, r) = (self.ends(e).1, self.ends(HalfEdges::next(e)).1);
@@ -191,7 +195,8 @@ impl Decimation<'_> {
         })
     }
 
-    /// Removes the two triangles at `e`, glues what lay beyond them, and gives the triangles of `a` to `b`.
+    /// Removes the two triangles at `e`, glues what lay beyond them, and gives the triangles of
+    /// `a` to `b`.
     fn join(&mut self, e: u32, a: u32, b: u32, wings: [u32; 2]) {
         let fan: Vec<u32> = self.edges.around(a).collect();
         for e in fan {
@@ -241,7 +246,8 @@ fn vertex_quadric(
     sum
 }
 
-/// Shape of a triangle: 1 if equilateral, 0 if degenerate (area over the sum of squared sides, scaled).
+/// Shape of a triangle: 1 if equilateral, 0 if degenerate (area over the sum of squared sides,
+/// scaled).
 pub fn quality(p: DVec3, q: DVec3, r: DVec3) -> f64 {
     let area2 = (q - p).cross(r - p).length();
     let sides = p.distance_squared(q) + q.distance_squared(r) + r.distance_squared(p);

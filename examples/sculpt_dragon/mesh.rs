@@ -101,8 +101,8 @@ impl Mesh {
         self.positions = kept;
     }
 
-    /// The half-edges that leave each vertex (half-edge `3 t + k` leaves corner k of triangle t): the
-    /// start of each vertex's run, with one more at the end, and the runs.
+    /// The half-edges that leave each vertex (half-edge `3 t + k` leaves corner k of triangle t):
+    /// the start of each vertex's run, with one more at the end, and the runs.
     pub fn fans(&self) -> (Vec<u32>, Vec<u32>) {
         let mut start = vec![0u32; self.positions.len() + 1];
         for &v in self.triangles.iter().flatten() {

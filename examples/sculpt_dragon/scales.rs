@@ -33,8 +33,8 @@ impl Skin {
         }
     }
 
-    /// Height of the relief, as a part of the radius, at row coordinate `u` and angle `theta` (0 at the
-    /// back, pi below).
+    /// Height of the relief, as a part of the radius, at row coordinate `u` and angle `theta` (0
+    /// at the back, pi below).
     pub fn relief(self, u: f64, theta: f64) -> f64 {
         match self {
             Skin::Smooth => 0.0,
@@ -60,9 +60,9 @@ impl Skin {
     }
 }
 
-/// Height in \[0, 1\] of a coat of scales, each one row long and one wide, at row coordinate `u` and
-/// column coordinate `v`. A scale rises from its root to its free edge, which covers the roots of the
-/// next two rows.
+/// Height in \[0, 1\] of a coat of scales, each one row long and one wide, at row coordinate `u`
+/// and column coordinate `v`. A scale rises from its root to its free edge, which covers the roots
+/// of the next two rows.
 fn scale_height(u: f64, v: f64) -> f64 {
     let row = u.floor();
     let mut height: f64 = 0.0;
@@ -79,7 +79,8 @@ fn scale_height(u: f64, v: f64) -> f64 {
     height
 }
 
-/// Height of one scale at `a` from its root (its tip lies at a = 1.75) and `b` from its middle line.
+/// Height of one scale at `a` from its root (its tip lies at a = 1.75) and `b` from its middle
+/// line.
 fn one_scale(a: f64, b: f64) -> f64 {
     const HALF_WIDTH: f64 = 0.62;
     const LENGTH: f64 = 1.75;
@@ -94,8 +95,8 @@ fn one_scale(a: f64, b: f64) -> f64 {
     edge * slope * crown
 }
 
-/// Height of belly plates at row coordinate `u`; `side` runs from 0 on the middle line to 1 at the ends
-/// of a plate.
+/// Height of belly plates at row coordinate `u`; `side` runs from 0 on the middle line to 1 at the
+/// ends of a plate.
 fn plate_height(u: f64, side: f64) -> f64 {
     let a = (0.7 * u + 0.08 * side * side).rem_euclid(1.0);
     let edge = smoothstep(0.0, 0.2, 1.0 - a);

@@ -62,8 +62,8 @@ fn stage(mesh: &mut Mesh) {
     }
 }
 
-/// Normals from the field's gradient. Where a detail is finer than the mesh, the gradient may look away
-/// from the triangles; their own mean stands in there.
+/// Normals from the field's gradient. Where a detail is finer than the mesh, the gradient may look
+/// away from the triangles; their own mean stands in there.
 fn field_normals(mesh: &Mesh, field: &Field, step: f64, threads: usize) -> Vec<DVec3> {
     let means = mesh.vertex_normals();
     let mut normals = vec![DVec3::ZERO; mesh.positions.len()];

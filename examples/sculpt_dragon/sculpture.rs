@@ -30,8 +30,8 @@ pub struct Sculpture {
     groups: Vec<Group>,
     /// Each shape with its group; groups ascend.
     shapes: Vec<(usize, Shape)>,
-    /// A ball that holds each shape; infinite where the distance is too rough an estimate to be compared
-    /// with one's.
+    /// A ball that holds each shape; infinite where the distance is too rough an estimate to be
+    /// compared with one's.
     balls: Vec<(DVec3, f64)>,
 }
 

@@ -17,7 +17,7 @@ pub struct Muscle {
     pub at: f64,
     /// Half-length along the curve, in keys.
     pub along: f64,
-    /// Angle about the curve: 0 at the back, positive towards `tangent x normal`.
+    /// Angle about the curve: 0 at the back, positive towards `tangent x back`.
     pub angle: f64,
     /// Half-width in angle.
     pub around: f64,
@@ -32,10 +32,11 @@ pub struct Tube {
     rows: Vec<[f64; PIECES + 1]>,
     /// The back of the tube is at `side x tangent`.
     side: DVec3,
-    /// Width across `side`, as a part of the height.
+    /// Width along `side`, as a part of the height along the back.
     oval: f64,
     skin: Skin,
-    /// The skin's relief fades in over the first of these, and out over the second (in keys from either end).
+    /// The skin's relief fades in over the first of these, and out over the second (in keys from
+    /// either end).
     fade: (f64, f64),
     muscles: Vec<Muscle>,
 }
@@ -135,8 +136,8 @@ impl Tube {
         let tangent = span.derivative(t).xyz().normalize();
         let back = self.side.cross(tangent).normalize();
         let (x, y) = (offset.dot(back), offset.dot(tangent.cross(back)));
-        // On the caps the angle loses its meaning towards the pole, so everything that depends on it
-        // fades there.
+        // On the caps the angle loses its meaning towards the pole, so everything that depends on
+        // it fades there.
         let on_cap = (i == 0 && t == 0.0) || (i + 1 == self.spans.len() && t == 1.0);
         let sideways = if on_cap { (x * x + y * y) / (length * length) } else { 1.0 };
         let theta = y.atan2(x);

@@ -7,8 +7,8 @@ use crate::scales::Skin;
 use crate::sculpture::{Join, Sculpture};
 use crate::tube::{Muscle, Tube};
 
-/// A leg: its curve from inside the body to the ankle, and where its foot points (degrees about y, 0
-/// being -x, positive towards -z).
+/// A leg: its curve from inside the body to the ankle, and where its foot points (degrees about y,
+/// 0 being -x, positive towards -z).
 struct Leg {
     keys: [DVec4; 6],
     foot: DVec3,
