@@ -17,7 +17,7 @@ use std::collections::BinaryHeap;
 use glam::DVec3;
 
 use crate::halfedge::{Defect, HalfEdges};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, quality};
 use crate::parallel;
 use crate::quadric::Quadric;
 
@@ -244,12 +244,4 @@ fn vertex_quadric(
         sum = sum.plus(&Quadric::point(p, STAY * share));
     }
     sum
-}
-
-/// Shape of a triangle: 1 if equilateral, 0 if degenerate (area over the sum of squared sides,
-/// scaled).
-pub fn quality(p: DVec3, q: DVec3, r: DVec3) -> f64 {
-    let area2 = (q - p).cross(r - p).length();
-    let sides = p.distance_squared(q) + q.distance_squared(r) + r.distance_squared(p);
-    if sides == 0.0 { 0.0 } else { 2.0 * 3f64.sqrt() * area2 / sides }
 }

@@ -131,3 +131,11 @@ fn root(parent: &mut [u32], mut v: u32) -> u32 {
     }
     v
 }
+
+/// Shape of a triangle: 1 if equilateral, 0 if degenerate (area over the sum of squared sides,
+/// scaled).
+pub fn quality(p: DVec3, q: DVec3, r: DVec3) -> f64 {
+    let area2 = (q - p).cross(r - p).length();
+    let sides = p.distance_squared(q) + q.distance_squared(r) + r.distance_squared(p);
+    if sides == 0.0 { 0.0 } else { 2.0 * 3f64.sqrt() * area2 / sides }
+}

@@ -3,10 +3,10 @@
 use glam::DVec3;
 
 use crate::anatomy;
-use crate::decimate::{decimate, quality};
+use crate::decimate::decimate;
 use crate::field::Field;
 use crate::lattice;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, quality};
 use crate::obj;
 use crate::parallel;
 use crate::relax::relax;
