@@ -1,8 +1,8 @@
 //! Scene files: what good ones give, and what is said about bad ones, word for word.
 //!
-//! Breaks that these tests caught, one at a time: columns counted from 0, and in bytes; `only` left
-//! out of a table; the nearest name taken without a limit; overrides put in front of the file; the
-//! translation applied before the scale.
+//! Breaks that these tests caught, one at a time: columns counted from 0, and in bytes; a table whose
+//! keys are not checked; the nearest name taken however far it is; overrides that do not replace, or
+//! whose OBJ is looked for beside the scene; the translation applied before the scale.
 
 use std::path::{Path, PathBuf};
 
