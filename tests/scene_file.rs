@@ -169,6 +169,11 @@ fn text_that_is_not_toml() {
 #[test]
 fn unknown_keys() {
     all_refused(&[
+        // A message is one line, whatever the text.
+        (
+            "[camera]\n\"a\\nb\" = 3",
+            "s.toml:2:1: unknown key `a\\nb` in [camera]; expected `eye`, `look_at`, `up`, `fov`, `lens_radius` or `focal_distance`",
+        ),
         ("[camera]\nfvo = 3", "s.toml:2:1: unknown key `fvo` in [camera]; did you mean `fov`?"),
         ("[camrea]", "s.toml:1:2: unknown key `camrea` in the scene; did you mean `camera`?"),
         (
@@ -382,15 +387,15 @@ fn names_of_nothing() {
         ("kd = \"\"", "s.toml:3:39: the scene has no texture ``; expected `red` or `rough`"),
         (
             "bump = \"red\"",
-            "s.toml:3:41: `material.mat.bump` is the texture `red`, [1, 0, 0], expected a number",
+            "s.toml:3:41: `material.mat.bump` is the texture \"red\", [1, 0, 0], expected a number",
         ),
         (
             "kd = \"rough\"",
-            "s.toml:3:39: `material.mat.kd` is the texture `rough`, 95, expected [red, green, blue], each from 0 to 1",
+            "s.toml:3:39: `material.mat.kd` is the texture \"rough\", 95, expected [red, green, blue], each from 0 to 1",
         ),
         (
             "sigma = \"rough\"",
-            "s.toml:3:42: `material.mat.sigma` is the texture `rough`, 95, expected degrees from 0 to 90",
+            "s.toml:3:42: `material.mat.sigma` is the texture \"rough\", 95, expected degrees from 0 to 90",
         ),
         // The mesh is not there either, but meshes come last.
         ("bump = 1", "s.toml:6:12: the scene has no material `mta`; did you mean `mat`?"),
