@@ -1,5 +1,6 @@
 //! What the tests share.
 
+pub mod lobes;
 pub mod rng;
 pub mod sphere;
 pub mod stats;

@@ -16,7 +16,8 @@ fn stratum(sampler: &StratifiedSampler, length: u32, set: u32, place: u32) -> us
     (x as usize).min(length as usize - 1)
 }
 
-/// Every place has each stratum equally often. Caught: `permute` without its last rotation.
+/// Every place has each stratum equally often. Caught: `permute` with two
+/// rounds and without its last rotation.
 #[test]
 fn places_are_uniform() {
     let lengths = [2, 3, 4, 5, 6, 7, 8, 9, 16, 60, 64, 100, 1000];

@@ -202,6 +202,22 @@ fn cones_have_their_density() {
     }
 }
 
+/// Grazing directions keep their digits: cos θ against f64. The larger of |2u - 1| is the radius on the
+/// disk. Caught: √(1 - x² - y²), with which cosines below 1e-3 are noise.
+#[test]
+fn cosine_hemisphere_keeps_its_digits() {
+    for trial in 0..100_000 {
+        let mut rng = Rng::new(17, trial);
+        let border = 2.0_f32.powi(-24) * (1.0 + rng.f32() * (1 << 10) as f32).floor();
+        let u = Vec2::new(border, rng.f32());
+        let square = 2.0 * u.as_dvec2() - 1.0;
+        let r = square.abs().max_element();
+        let truth = ((1.0 - r) * (1.0 + r)).sqrt();
+        let z = f64::from(cosine_hemisphere::sample(u).z);
+        assert!((z - truth).abs() <= 1e-6 * truth, "trial {trial}, u = {u}: {z}, expected {truth}");
+    }
+}
+
 /// `height` against f64, for angles whose cosine is 1 in f32. Caught: 1 - √(1 - sin²).
 #[test]
 fn cone_height_keeps_its_digits() {
