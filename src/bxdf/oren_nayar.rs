@@ -45,8 +45,7 @@ impl BxDF for OrenNayar {
         // sin α tan β = sin θi sin θo / max(cos θi, cos θo): no angle has to be found.
         let across = wo.truncate().dot(wi.truncate()).max(0.0);
         let larger_cos = abs_cos_theta(wo).max(abs_cos_theta(wi));
-        let ratio = if across > 0.0 { across / larger_cos } else { 0.0 };
-        self.r * (FRAC_1_PI * (self.a + self.b * ratio))
+        self.r * (FRAC_1_PI * (self.a + self.b * (across / larger_cos)))
     }
 
     /// The integral of f cos θi in closed form: over φ, max(0, cos φ) gives 2; over θi it falls into
