@@ -81,7 +81,7 @@ fn smooth_oren_nayar_is_lambertian() {
 }
 
 /// Every combination of extreme samples, directions and parameters stays finite and not negative.
-/// Caught: Oren-Nayar with tan β in place of the ratio, and with no case for 0 / 0.
+/// Caught: Oren-Nayar with the smaller cosine in its ratio.
 #[test]
 fn extremes_stay_finite() {
     let edges = [0.0, 2.0_f32.powi(-24), 0.5, 1.0 - 2.0_f32.powi(-24)];

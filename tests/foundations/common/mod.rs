@@ -1,6 +1,7 @@
 //! What the tests share.
 
 pub mod lobes;
+pub mod meshes;
 pub mod rng;
 pub mod sphere;
 pub mod stats;

@@ -49,7 +49,7 @@ fn integrate(z: [f64; 2], phi: [f64; 2], f: impl Fn(Vec3) -> f64) -> f64 {
 }
 
 /// Nodes and weights of the 4-point Gauss-Legendre rule.
-fn gauss([a, b]: [f64; 2]) -> [(f64, f64); 4] {
+pub fn gauss([a, b]: [f64; 2]) -> [(f64, f64); 4] {
     let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
     [
         (-0.861_136_311_594_052_6, 0.347_854_845_137_453_9),

@@ -1,1 +1,6 @@
-//! Not yet.
+//! Rays against triangles, through the real tree.
+
+mod brute_force;
+mod degenerate;
+mod self_hit;
+mod watertight;
