@@ -3,11 +3,13 @@
 use std::time::Duration;
 
 use glam::Vec3;
+use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
-use obvhs::{Boundable, BvhBuildParams};
+use obvhs::bvh2::node::Bvh2Node;
 
 use super::Aabb;
+use super::bundle::bundle;
 use crate::shape::TriangleMesh;
 
 /// The triangles of a scene in a tree of boxes.
@@ -46,26 +48,27 @@ pub(super) struct LeafTriangle {
     pub(super) triangle: u32,
 }
 
-impl Boundable for LeafTriangle {
-    fn aabb(&self) -> obvhs::aabb::Aabb {
-        let [a, b, c] = self.corners.map(glam::Vec3A::from);
-        obvhs::aabb::Aabb { min: a.min(b).min(c), max: a.max(b).max(c) }
-    }
-}
-
 impl Accel {
     /// Builds the tree over all triangles of all meshes. Triangles without area are left out: no ray
     /// can hit them. The meshes must have passed [`TriangleMesh::check`].
     pub fn build(meshes: &[TriangleMesh]) -> Self {
-        let triangles = collect(meshes);
+        let mut triangles = collect(meshes);
         let corners = triangles.iter().flat_map(|t| t.corners);
         let bounds = corners.fold(Aabb::EMPTY, Aabb::including);
         if triangles.is_empty() {
             return Self { nodes: Vec::new(), leaves: Vec::new(), bounds, depth: 0 };
         }
-        let tree = build_bvh2(&triangles, BvhBuildParams::medium_build(), &mut Duration::default());
-        let leaves = tree.primitive_indices.iter().map(|&i| triangles[i as usize]).collect();
-        let (nodes, depth) = lay_out(&tree);
+        let bundles = bundle(&mut triangles);
+        let tree = build_bvh2(&bundles, BvhBuildParams::medium_build(), &mut Duration::default());
+        let mut leaves = Vec::with_capacity(triangles.len());
+        // Where the bundles begin that the tree refers to by number.
+        let mut starts = Vec::with_capacity(bundles.len() + 1);
+        for &number in &tree.primitive_indices {
+            starts.push(leaves.len() as u32);
+            leaves.extend_from_slice(&triangles[bundles[number as usize].range()]);
+        }
+        starts.push(leaves.len() as u32);
+        let (nodes, depth) = lay_out(&tree, &starts);
         Self { nodes, leaves, bounds, depth }
     }
 
@@ -113,16 +116,24 @@ fn collect(meshes: &[TriangleMesh]) -> Vec<LeafTriangle> {
     triangles
 }
 
-/// The tree's inner nodes, each with the boxes of both children, parents first; and the depth.
-fn lay_out(tree: &Bvh2) -> (Vec<Node>, usize) {
+/// The tree's inner nodes, each with the boxes of both children, parents first; and the depth. `starts`
+/// says where the primitives of leaves begin among the triangles.
+fn lay_out(tree: &Bvh2, starts: &[u32]) -> (Vec<Node>, usize) {
+    let child = |node: &Bvh2Node| {
+        if !node.is_leaf() {
+            return Child { first: node.first_index, count: 0 };
+        }
+        let [first, end] = [node.first_index, node.first_index + node.prim_count];
+        let [first, end] = [starts[first as usize], starts[end as usize]];
+        Child { first, count: end - first }
+    };
     if tree.nodes[0].is_leaf() {
         // One leaf: a node that holds it twice would report hits twice, so the second child is empty.
         let (only, none) = (&tree.nodes[0], Aabb::EMPTY);
-        let leaf = Child { first: only.first_index, count: only.prim_count };
         let node = Node {
             min: [only.aabb().min.into(), none.min],
             max: [only.aabb().max.into(), none.max],
-            children: [leaf, Child { first: 0, count: 1 }],
+            children: [child(only), Child { first: 0, count: 1 }],
         };
         return (vec![node], 1);
     }
@@ -141,7 +152,7 @@ fn lay_out(tree: &Bvh2) -> (Vec<Node>, usize) {
         nodes.push(Node {
             min: children.map(|c| c.aabb().min.into()),
             max: children.map(|c| c.aabb().max.into()),
-            children: children.map(|c| Child { first: c.first_index, count: c.prim_count }),
+            children: children.map(child),
         });
         for side in [1, 0] {
             if !children[side].is_leaf() {

@@ -5,6 +5,7 @@
 
 mod aabb;
 mod build;
+mod bundle;
 mod walk;
 
 pub use aabb::Aabb;

@@ -76,7 +76,8 @@ impl<'a> Bsdf<'a> {
         self.eta
     }
 
-    /// How many answers of lobes were turned into black because they were negative or not finite.
+    /// How many answers of lobes were left out, or turned into black, because they were negative or not
+    /// finite.
     pub fn rejected(&self) -> u32 {
         self.rejected.get()
     }
@@ -117,14 +118,24 @@ impl<'a> Bsdf<'a> {
         let mut sample = lobe.sample_f(local_wo, u)?;
         let local_wi = sample.wi;
         sample.wi = self.frame.to_world(local_wi);
-        if kind.contains(BxdfFlags::SPECULAR) {
-            sample.pdf /= matching as f32;
+        let specular = kind.contains(BxdfFlags::SPECULAR);
+        sample.pdf = if specular {
+            sample.pdf / matching as f32
         } else {
-            sample.pdf = self.mean_pdf(local_wo, local_wi, flags);
+            self.mean_pdf(local_wo, local_wi, flags)
+        };
+        if !sample.wi.is_finite() {
+            self.reject();
+            return None;
+        }
+        if self.guarded_pdf(sample.pdf) == 0.0 {
+            return None;
+        }
+        if !specular {
             sample.f = self.sum(local_wo, local_wi, self.side(wo, sample.wi), flags);
         }
         sample.f = self.guarded(sample.f);
-        (sample.pdf > 0.0 && sample.pdf.is_finite()).then_some(sample)
+        Some(sample)
     }
 
     /// Density over solid angle with which [`sample_f`](Bsdf::sample_f) gives `wi`: the mean over the
@@ -135,8 +146,7 @@ impl<'a> Bsdf<'a> {
         if local_wo.z == 0.0 {
             return 0.0;
         }
-        let pdf = self.mean_pdf(local_wo, self.frame.to_local(wi), flags);
-        if pdf.is_finite() && pdf >= 0.0 { pdf } else { 0.0 }
+        self.guarded_pdf(self.mean_pdf(local_wo, self.frame.to_local(wi), flags))
     }
 
     /// The share of a uniform light that leaves along the world direction `wo`: see [`BxDF::rho_hd`].
@@ -198,7 +208,21 @@ impl<'a> Bsdf<'a> {
         if f.is_valid() {
             return f;
         }
-        self.rejected.set(self.rejected.get() + 1);
+        self.reject();
         Spectrum::BLACK
+    }
+
+    #[inline]
+    fn guarded_pdf(&self, pdf: f32) -> f32 {
+        if (0.0..f32::INFINITY).contains(&pdf) {
+            return pdf;
+        }
+        self.reject();
+        0.0
+    }
+
+    #[cold]
+    fn reject(&self) {
+        self.rejected.set(self.rejected.get() + 1);
     }
 }

@@ -14,7 +14,8 @@ use crate::geometry::trig::{abs_cos_theta, sin_theta, sin2_theta};
 /// The qualitative model of Oren and Nayar 1994, "Generalization of Lambert's Reflectance Model",
 /// equation 30, as PBRT has it (3rd edition, section 8.4.1):
 /// f = R/π (A + B max(0, cos(φi - φo)) sin α tan β), α and β the larger and the smaller of the two angles to
-/// the normal. It leaves out light between the grooves, so it loses energy: see [`BxDF::rho_hd`].
+/// the normal. It leaves out light between the grooves, so it loses energy: up to 44 % at sigma 90. Close
+/// to the horizon it is too bright instead: at sigma 11 degrees it reflects up to 1.015 R there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrenNayar {
     r: Spectrum,
@@ -44,8 +45,7 @@ impl BxDF for OrenNayar {
         // sin α tan β = sin θi sin θo / max(cos θi, cos θo): no angle has to be found.
         let across = wo.truncate().dot(wi.truncate()).max(0.0);
         let larger_cos = abs_cos_theta(wo).max(abs_cos_theta(wi));
-        let ratio = if across > 0.0 { across / larger_cos } else { 0.0 };
-        self.r * (FRAC_1_PI * (self.a + self.b * ratio))
+        self.r * (FRAC_1_PI * (self.a + self.b * (across / larger_cos)))
     }
 
     /// The integral of f cos θi in closed form: over φ, max(0, cos φ) gives 2; over θi it falls into

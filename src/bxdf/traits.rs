@@ -1,6 +1,6 @@
 //! The contract of reflection models.
 
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 use crate::Spectrum;
 use crate::geometry::trig::{abs_cos_theta, same_hemisphere};
@@ -111,8 +111,7 @@ pub trait BxDF: Send + Sync {
     ///
     /// The default is the Monte Carlo mean of f |cos θi| / pdf over the points `u` in `[0, 1)²`.
     fn rho_hd(&self, wo: Vec3, u: &[Vec2]) -> Spectrum {
-        let sum: Spectrum = u.iter().filter_map(|&u| throughput(self.sample_f(wo, u))).sum();
-        if u.is_empty() { sum } else { sum / u.len() as f32 }
+        mean(u.iter().filter_map(|&u| throughput(self.sample_f(wo, u))), u.len())
     }
 
     /// Hemispherical-hemispherical reflectance ρ_hh: the share of a uniform light from all sides that
@@ -121,14 +120,13 @@ pub trait BxDF: Send + Sync {
     /// The default is a Monte Carlo mean over pairs of points: `u1` for wo, uniform over the
     /// hemisphere, `u2` for wi. The longer slice is cut to the length of the shorter.
     fn rho_hh(&self, u1: &[Vec2], u2: &[Vec2]) -> Spectrum {
-        let count = u1.len().min(u2.len()).max(1);
         let estimate = |(&u1, &u2)| {
             let wo = uniform_hemisphere::sample(u1);
             // 1/π ∫ ρ_hd cos θo dωo, by the density of wo.
             let weight = abs_cos_theta(wo) / (std::f32::consts::PI * uniform_hemisphere::pdf());
             (wo.z != 0.0).then(|| throughput(self.sample_f(wo, u2)).map(|t| t * weight)).flatten()
         };
-        u1.iter().zip(u2).filter_map(estimate).sum::<Spectrum>() / count as f32
+        mean(u1.iter().zip(u2).filter_map(estimate), u1.len().min(u2.len()))
     }
 
     /// Whether this lobe is among the kinds that `wanted` names.
@@ -136,6 +134,12 @@ pub trait BxDF: Send + Sync {
     fn matches(&self, wanted: BxdfFlags) -> bool {
         wanted.contains(self.flags())
     }
+}
+
+/// The sum over `count`, or black for a count of 0. In f64: the error of a long sum of f32 shows.
+fn mean(estimates: impl Iterator<Item = Spectrum>, count: usize) -> Spectrum {
+    let sum = estimates.fold(DVec3::ZERO, |sum, s| sum + Vec3::from(s.to_array()).as_dvec3());
+    (sum / count.max(1) as f64).as_vec3().into()
 }
 
 /// f |cos θi| / pdf.

@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 
+use super::unit;
+
 /// A right-handed orthonormal basis whose third axis is a normal: shading coordinates.
 ///
 /// The matrix with rows s, t, n takes world directions to shading coordinates. It is orthogonal, so
@@ -38,7 +40,12 @@ impl Frame {
     /// [`Frame::from_normal`].
     #[inline]
     pub fn from_normal_and_tangent(n: Vec3, tangent: Vec3) -> Self {
-        match (tangent - n * n.dot(tangent)).try_normalize() {
+        let across = |v: Vec3| v - n * n.dot(v);
+        // What is left of a tangent close to the normal has the rounding error of the whole, which
+        // does not lie across the normal: what is too little counts as parallel, and the rest is
+        // projected once more.
+        let projected = unit(tangent).map(across).filter(|s| s.length_squared() > 1e-12);
+        match projected.and_then(unit).map(across).and_then(unit) {
             Some(s) => Self { s, t: n.cross(s), n },
             None => Self::from_normal(n),
         }

@@ -6,8 +6,10 @@ mod frame;
 mod optics;
 mod ray;
 pub mod trig;
+mod vector;
 
 pub use bounded::BoundedPoint;
 pub use frame::Frame;
 pub use optics::{reflect, refract};
 pub use ray::Ray;
+pub(crate) use vector::{unit, unit_cross};

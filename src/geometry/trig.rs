@@ -35,7 +35,9 @@ pub fn sin2_theta(w: Vec3) -> f32 {
 /// sin θ, never negative.
 #[inline]
 pub fn sin_theta(w: Vec3) -> f32 {
-    sin2_theta(w).sqrt()
+    let sin2 = sin2_theta(w);
+    // Squares this small lose digits, and then vanish.
+    if sin2 > 1e-30 { sin2.sqrt() } else { w.x.hypot(w.y) }
 }
 
 /// tan θ, negative below the surface and infinite along it.

@@ -4,10 +4,12 @@ use super::SampleId;
 
 /// A well-mixed 64-bit number for every (seed, pixel, index, dimension).
 ///
-/// Each word is folded in by one round of [`mix`], so that no two of them can cancel.
+/// Each word is folded in by one round of [`mix`], so that no two of them can cancel. The round of the
+/// seed is the caller's, who has to do it only once: `mixed_seed` is [`mix`] of a seed. Without it, the
+/// pixels of one seed would be those of the next in another order.
 #[inline]
-pub fn hash(seed: u64, id: SampleId, dimension: u32) -> u64 {
-    let pixel = mix(seed ^ (u64::from(id.pixel.x) << 32 | u64::from(id.pixel.y)));
+pub fn hash(mixed_seed: u64, id: SampleId, dimension: u32) -> u64 {
+    let pixel = mix(mixed_seed ^ (u64::from(id.pixel.x) << 32 | u64::from(id.pixel.y)));
     mix(pixel.wrapping_add(u64::from(id.index) << 32 | u64::from(dimension)))
 }
 
@@ -32,25 +34,33 @@ pub fn unit_float(bits: u32) -> f32 {
 
 /// Element `i` of a random permutation of `0..length` that `key` chooses, for i < length.
 ///
-/// No table, so no state: rounds of keyed multiply, add and shift permute the next power of two, and
+/// No table, so no state: rounds of keyed add, multiply and shift permute the next power of two, and
 /// an element that falls outside of the range is sent on until it lands inside (cycle walking; the
 /// idea is section 3 of Kensler 2013, "Correlated Multi-Jittered Sampling"). A last rotation makes
 /// every place equally likely for every element.
+///
+/// The number of rounds is what it takes until pairs of places are uniform too, to 0.5 %: each round
+/// halves what is left of their bias on the shortest lengths, and takes more off on longer ones.
 #[inline]
 pub fn permute(i: u32, length: u32, key: u64) -> u32 {
-    let mask = length.next_power_of_two().wrapping_sub(1);
-    let half = (mask.count_ones() / 2).max(1);
+    let mask = u32::MAX.checked_shr((length - 1).leading_zeros()).unwrap_or(0);
+    let half = mask.count_ones().div_ceil(2).max(1);
+    let rounds = if length <= 16 { 12 } else { 8 };
+    let rotation = mix(key);
     let mut i = i;
     loop {
-        for round in 0..4 {
-            let factor = (key >> (8 * round)) as u32 | 1;
-            let summand = (key >> (8 * round + 24)) as u32;
-            i = i.wrapping_mul(factor).wrapping_add(summand) & mask;
+        let mut round_key = key;
+        for _ in 0..rounds {
+            let factor = (round_key >> 32) as u32 | 1;
+            i = i.wrapping_add(round_key as u32).wrapping_mul(factor) & mask;
             i ^= i >> half;
+            // A multiplicative congruential step (multiplier of Steele and Vigna 2021), with its
+            // strong upper bits brought down to where short lengths look.
+            round_key = round_key.wrapping_mul(0xd134_2543_de82_ef95).rotate_left(29) ^ rotation;
         }
         if i < length {
             break;
         }
     }
-    ((u64::from(i) + (mix(key) >> 32)) % u64::from(length)) as u32
+    ((u64::from(i) + (rotation >> 32)) % u64::from(length)) as u32
 }

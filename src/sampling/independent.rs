@@ -2,20 +2,20 @@
 
 use glam::Vec2;
 
-use super::hash::{hash, unit_float};
+use super::hash::{hash, mix, unit_float};
 use super::{SampleId, Sampler};
 
 /// Uniform random numbers that know nothing of each other. Error falls with 1/√n.
 #[derive(Clone, Copy, Debug)]
 pub struct IndependentSampler {
     samples_per_pixel: u32,
-    seed: u64,
+    mixed_seed: u64,
 }
 
 impl IndependentSampler {
     /// A sampler for `samples_per_pixel` samples, at least 1; each seed gives another image.
     pub fn new(samples_per_pixel: u32, seed: u64) -> Self {
-        Self { samples_per_pixel: samples_per_pixel.max(1), seed }
+        Self { samples_per_pixel: samples_per_pixel.max(1), mixed_seed: mix(seed) }
     }
 }
 
@@ -26,12 +26,12 @@ impl Sampler for IndependentSampler {
 
     #[inline]
     fn get_1d(&self, id: SampleId, dimension: u32) -> f32 {
-        unit_float((hash(self.seed, id, dimension) >> 32) as u32)
+        unit_float((hash(self.mixed_seed, id, dimension) >> 32) as u32)
     }
 
     #[inline]
     fn get_2d(&self, id: SampleId, dimension: u32) -> Vec2 {
-        let bits = hash(self.seed, id, dimension);
+        let bits = hash(self.mixed_seed, id, dimension);
         Vec2::new(unit_float((bits >> 32) as u32), unit_float(bits as u32))
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::Vec2;
 
-use super::hash::{hash, permute, unit_float};
+use super::hash::{hash, mix, permute, unit_float};
 use super::{SampleId, Sampler};
 use crate::geometry::float::ONE_MINUS_EPSILON;
 
@@ -18,7 +18,10 @@ pub struct StratifiedSampler {
     samples_per_pixel: u32,
     columns: u32,
     rows: u32,
-    seed: u64,
+    /// For what each sample has to itself.
+    jitter_seed: u64,
+    /// For what the samples of a set share.
+    order_seed: u64,
 }
 
 impl StratifiedSampler {
@@ -26,15 +29,16 @@ impl StratifiedSampler {
     pub fn new(samples_per_pixel: u32, seed: u64) -> Self {
         let samples_per_pixel = samples_per_pixel.max(1);
         let columns = samples_per_pixel.isqrt();
-        Self { samples_per_pixel, columns, rows: samples_per_pixel.div_ceil(columns), seed }
+        let rows = samples_per_pixel.div_ceil(columns);
+        let (jitter_seed, order_seed) = (mix(seed), mix(!seed));
+        Self { samples_per_pixel, columns, rows, jitter_seed, order_seed }
     }
 
     /// The random bits that a set of samples shares in one dimension, and the place within the set.
     #[inline]
     fn shared(&self, id: SampleId, dimension: u32) -> (u64, u32) {
         let set = SampleId { pixel: id.pixel, index: id.index / self.samples_per_pixel };
-        // The complement keeps these bits apart from those of the jitter, which use the seed itself.
-        (hash(!self.seed, set, dimension), id.index % self.samples_per_pixel)
+        (hash(self.order_seed, set, dimension), id.index % self.samples_per_pixel)
     }
 }
 
@@ -47,7 +51,7 @@ impl Sampler for StratifiedSampler {
     fn get_1d(&self, id: SampleId, dimension: u32) -> f32 {
         let (key, place) = self.shared(id, dimension);
         let cell = permute(place, self.samples_per_pixel, key);
-        let jitter = unit_float((hash(self.seed, id, dimension) >> 32) as u32);
+        let jitter = unit_float((hash(self.jitter_seed, id, dimension) >> 32) as u32);
         within(cell, jitter, self.samples_per_pixel)
     }
 
@@ -55,7 +59,7 @@ impl Sampler for StratifiedSampler {
     fn get_2d(&self, id: SampleId, dimension: u32) -> Vec2 {
         let (key, place) = self.shared(id, dimension);
         let cell = permute(place, self.columns * self.rows, key);
-        let bits = hash(self.seed, id, dimension);
+        let bits = hash(self.jitter_seed, id, dimension);
         Vec2::new(
             within(cell % self.columns, unit_float((bits >> 32) as u32), self.columns),
             within(cell / self.columns, unit_float(bits as u32), self.rows),

@@ -115,15 +115,19 @@ fn edge_f64(p: Vec3, q: Vec3) -> f32 {
 
 /// The bound on the error of t: a hit at or below it may lie behind the origin
 /// (PBRT 3rd edition, section 3.9.6).
+///
+/// The shear adds z in proportion to x and y before z is scaled, so that its error goes with z as it is.
+/// PBRT takes the scaled z, which is the same only for directions of unit length.
 #[inline]
 fn least_t(corners: [Vec3; 3], z: Vec3, e: Vec3, determinant: f32) -> f32 {
     let max_of = |values: [f32; 3]| values[0].abs().max(values[1].abs()).max(values[2].abs());
     let max_x = max_of(corners.map(|p| p.x));
     let max_y = max_of(corners.map(|p| p.y));
+    let max_unscaled_z = max_of(corners.map(|p| p.z));
     let max_z = z.abs().max_element();
     let delta_z = gamma(3) * max_z;
-    let delta_x = gamma(5) * (max_x + max_z);
-    let delta_y = gamma(5) * (max_y + max_z);
+    let delta_x = gamma(5) * (max_x + max_unscaled_z);
+    let delta_y = gamma(5) * (max_y + max_unscaled_z);
     let delta_e = 2.0 * (gamma(2) * max_x * max_y + delta_y * max_x + delta_x * max_y);
     let max_e = e.abs().max_element();
     3.0 * (gamma(3) * max_e * max_z + delta_e * max_z + delta_z * max_e) / determinant.abs()

@@ -1,0 +1,79 @@
+//! Triangles in the same place, which no tree can tell apart.
+
+use std::ops::Range;
+
+use glam::Vec3A;
+use obvhs::Boundable;
+use obvhs::aabb::Aabb;
+
+use super::build::LeafTriangle;
+
+/// More triangles than this with the same box are one to the tree.
+const MOST: usize = 16;
+
+/// What a leaf is made of: almost always one triangle.
+///
+/// The builder pairs neighbours that are each other's cheapest. In a heap of triangles with equal boxes
+/// each prefers the next, so that every pass over all of them makes one pair: its time is quadratic in the
+/// heap's size, and the tree it makes is a chain. A heap is therefore kept together in one leaf.
+#[derive(Clone, Copy)]
+pub struct Bundle {
+    first: u32,
+    count: u32,
+    bounds: Aabb,
+}
+
+impl Bundle {
+    fn new(triangles: &[LeafTriangle], first: usize, count: usize) -> Self {
+        let boxes = triangles[first..first + count].iter().map(bounds);
+        let bounds = boxes.fold(Aabb::empty(), |all, one| all.union(&one));
+        Self { first: first as u32, count: count as u32, bounds }
+    }
+
+    /// Which triangles.
+    pub fn range(&self) -> Range<usize> {
+        self.first as usize..(self.first + self.count) as usize
+    }
+}
+
+impl Boundable for Bundle {
+    fn aabb(&self) -> Aabb {
+        self.bounds
+    }
+}
+
+/// Sorts the triangles into bundles. Where there are no heaps, their order is kept.
+pub fn bundle(triangles: &mut [LeafTriangle]) -> Vec<Bundle> {
+    let mut keys: Vec<u64> = triangles.iter().map(key).collect();
+    keys.sort_unstable();
+    if keys.len() <= MOST || keys.windows(MOST + 1).all(|run| run[0] != run[MOST]) {
+        return (0..triangles.len()).map(|i| Bundle::new(triangles, i, 1)).collect();
+    }
+    triangles.sort_by_key(key);
+    let mut bundles = Vec::new();
+    let mut first = 0;
+    for heap in triangles.chunk_by(|a, b| key(a) == key(b)) {
+        if heap.len() > MOST {
+            bundles.push(Bundle::new(triangles, first, heap.len()));
+        } else {
+            bundles.extend((first..first + heap.len()).map(|i| Bundle::new(triangles, i, 1)));
+        }
+        first += heap.len();
+    }
+    bundles
+}
+
+fn bounds(triangle: &LeafTriangle) -> Aabb {
+    let [a, b, c] = triangle.corners.map(Vec3A::from);
+    Aabb { min: a.min(b).min(c), max: a.max(b).max(c) }
+}
+
+/// A number that equal boxes share. Others may share it too, which costs a little time and no hit.
+fn key(triangle: &LeafTriangle) -> u64 {
+    let bounds = bounds(triangle);
+    let numbers = bounds.min.to_array().into_iter().chain(bounds.max.to_array());
+    // FNV-1a over words, rotated so that upper bits come down.
+    numbers.fold(0xcbf2_9ce4_8422_2325, |hash: u64, x| {
+        (hash ^ u64::from(x.to_bits())).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(23)
+    })
+}

@@ -1,0 +1,171 @@
+//! The sum of lobes: which are asked, how one is chosen, and which side light is on.
+
+use std::f32::consts::FRAC_1_PI;
+
+use lobe::Spectrum;
+use lobe::bxdf::{Bsdf, BxDF, BxdfFlags, LambertianReflection, Lobe, MAX_LOBES, OrenNayar};
+use lobe::geometry::Frame;
+use lobe::glam::{Vec2, Vec3};
+
+use super::view;
+use crate::common::Rng;
+use crate::common::lobes::{Delta, Stretched, Through};
+use crate::common::stats::assert_mean;
+
+const WHITE: LambertianReflection = LambertianReflection::new(Spectrum::WHITE);
+const MIRROR: Delta = Delta { r: 0.8, eta: None };
+const WINDOW: Delta = Delta { r: 0.8, eta: Some(1.5) };
+const GLOSS: Stretched = Stretched { r: 0.5, m: Vec3::new(0.3, 0.3, 1.0) };
+
+fn flat() -> Bsdf<'static> {
+    Bsdf::new(Frame::from_normal(Vec3::Z), Vec3::Z, 1.0)
+}
+
+/// A lobe answers when all of its flags are asked for. Caught: `intersects` in place of `contains`.
+#[test]
+fn flags_choose_lobes() {
+    let through = Through(0.5);
+    let mut bsdf = flat();
+    bsdf.add(WHITE);
+    bsdf.add(OrenNayar::new(Spectrum::WHITE, 30.0));
+    let others: [&dyn BxDF; 4] = [&GLOSS, &through, &MIRROR, &WINDOW];
+    for lobe in others {
+        bsdf.add(Lobe::Custom(lobe));
+    }
+    use BxdfFlags as F;
+    let table = [
+        (F::all(), 6),
+        (F::empty(), 0),
+        (F::REFLECTION, 0),
+        (F::DIFFUSE | F::GLOSSY | F::SPECULAR, 0),
+        (F::REFLECTION | F::DIFFUSE, 2),
+        (F::REFLECTION | F::DIFFUSE | F::GLOSSY, 3),
+        (F::TRANSMISSION | F::DIFFUSE, 1),
+        (F::TRANSMISSION | F::SPECULAR, 1),
+        (F::all() - F::SPECULAR, 4),
+        (F::all() - F::TRANSMISSION, 4),
+        (F::TRANSMISSION | F::GLOSSY, 0),
+    ];
+    let (wo, above, below) = (view(0.7), view(0.4), -view(0.4));
+    for (flags, count) in table {
+        assert_eq!(bsdf.num_components(flags), count, "{flags:?}");
+        let none = count == 0;
+        assert_eq!(bsdf.sample_f(wo, Vec2::splat(0.3), flags).is_none(), none, "{flags:?}");
+        if none {
+            assert_eq!(bsdf.pdf(wo, above, flags), 0.0, "{flags:?}");
+            assert!(bsdf.f(wo, above, flags).is_black(), "{flags:?}");
+            assert!(bsdf.rho_hd(wo, &[Vec2::splat(0.3)], flags).is_black(), "{flags:?}");
+        }
+    }
+    let only =
+        |side: F| bsdf.f(wo, if side == F::REFLECTION { above } else { below }, side | F::DIFFUSE);
+    let rough = OrenNayar::new(Spectrum::WHITE, 30.0).f(wo, above);
+    assert_eq!(only(F::REFLECTION), Spectrum::splat(FRAC_1_PI) + rough);
+    assert_eq!(only(F::TRANSMISSION), Spectrum::splat(0.5 * FRAC_1_PI));
+}
+
+/// Caught: `<=` in place of `<` in the check for room, which panics.
+#[test]
+fn a_ninth_lobe_is_refused() {
+    let mut bsdf = flat();
+    for _ in 0..MAX_LOBES {
+        assert!(bsdf.add(LambertianReflection::new(Spectrum::splat(0.1))));
+    }
+    assert!(!bsdf.add(WHITE));
+    assert_eq!(bsdf.num_components(BxdfFlags::all()), MAX_LOBES);
+    let f = bsdf.f(Vec3::Z, Vec3::Z, BxdfFlags::all()).to_array()[0];
+    assert!((f - 0.8 * FRAC_1_PI).abs() < 1e-6);
+}
+
+/// A delta lobe beside a diffuse one: each is drawn half of the time, with half of its density; the
+/// delta adds nothing to `f` and `pdf`. Caught: the mirror's pdf of 1 not divided by the number of lobes;
+/// the mean density taken for a specular sample too, which is 0.
+#[test]
+fn delta_lobes_take_part() {
+    let mut bsdf = flat();
+    bsdf.add(Lobe::Custom(&MIRROR));
+    bsdf.add(WHITE);
+    let wo = view(0.6);
+    let all = BxdfFlags::all();
+    let mirrored = Vec3::new(-wo.x, -wo.y, wo.z);
+    assert_eq!(bsdf.f(wo, mirrored, all), Spectrum::splat(FRAC_1_PI));
+    assert_eq!(bsdf.f(wo, mirrored, BxdfFlags::REFLECTION | BxdfFlags::SPECULAR), Spectrum::BLACK);
+    let pdf = bsdf.pdf(wo, mirrored, all);
+    assert!((pdf - 0.5 * 0.6 * FRAC_1_PI).abs() < 1e-6, "{pdf}");
+
+    let (trials, mut specular) = (100_000, 0);
+    let mut rng = Rng::new(310, 0);
+    for trial in 0..trials {
+        let Some(sample) = bsdf.sample_f(wo, rng.square(), all) else { continue };
+        if sample.flags.contains(BxdfFlags::SPECULAR) {
+            specular += 1;
+            assert!(sample.wi.distance(mirrored) < 1e-6, "trial {trial}");
+            assert_eq!((sample.pdf, sample.f), (0.5, Spectrum::splat(0.8 / sample.wi.z)));
+        } else {
+            assert_eq!(sample.pdf, bsdf.pdf(wo, sample.wi, all), "trial {trial}");
+            assert_eq!(sample.f, Spectrum::splat(FRAC_1_PI), "trial {trial}");
+        }
+    }
+    let share = specular as f64 / trials as f64;
+    assert_mean(share, 0.5 / (trials as f64).sqrt(), 0.5, 1, "share of mirror samples");
+}
+
+/// A delta lobe without a direction gives no sample. Caught: `?` on the lobe's sample replaced by a
+/// default.
+#[test]
+fn total_internal_reflection_gives_no_sample() {
+    let mut bsdf = flat();
+    bsdf.add(Lobe::Custom(&WINDOW));
+    let inside = |cos: f32| bsdf.sample_f(-view(cos), Vec2::splat(0.5), BxdfFlags::all());
+    // The critical angle of 1.5 has the cosine 0.745.
+    assert!(inside(0.74).is_none());
+    let sample = inside(0.75).unwrap();
+    assert!(sample.wi.z > 0.0 && sample.pdf == 1.0);
+}
+
+/// Reflection and transmission are told apart by the geometric normal. `f` is compared with the sum
+/// over lobes made here, for tilted shading normals and directions on all sides of both planes.
+/// Caught: sides told apart by the shading normal, which lets light leak; by `wi` alone.
+#[test]
+fn the_geometric_normal_decides() {
+    let (reflects, transmits) = (OrenNayar::new(Spectrum::splat(0.6), 25.0), Through(0.3));
+    let mut leaks = 0;
+    for trial in 0..100_000 {
+        let mut rng = Rng::new(311, trial);
+        let ng = rng.direction();
+        let ns = (ng + 0.9 * rng.direction()).normalize();
+        let frame = Frame::from_normal(ns);
+        let (wo, wi) = (rng.direction(), rng.direction());
+        let (local_wo, local_wi) = (frame.to_local(wo), frame.to_local(wi));
+        // On which side of a plane a direction within rounding of it lies is anyone's guess.
+        if wo.dot(ng).abs().min(wi.dot(ng).abs()).min(local_wo.z.abs()) < 1e-6 {
+            continue;
+        }
+        let mut both = Bsdf::new(frame, ng, 1.0);
+        both.add(reflects);
+        both.add(Lobe::Custom(&transmits));
+        let mut opaque = Bsdf::new(frame, ng, 1.0);
+        opaque.add(reflects);
+
+        let reflected = (wo.dot(ng) > 0.0) == (wi.dot(ng) > 0.0);
+        let expected = if reflected {
+            reflects.f(local_wo, local_wi)
+        } else {
+            transmits.f(local_wo, local_wi)
+        };
+        let all = BxdfFlags::all();
+        assert_eq!(both.f(wo, wi, all), expected, "trial {trial}");
+        let seen = opaque.f(wo, wi, all);
+        assert_eq!(seen, if reflected { expected } else { Spectrum::BLACK }, "trial {trial}");
+        let shading_reflected = local_wo.z * local_wi.z > 0.0;
+        leaks += u32::from(reflected != shading_reflected);
+
+        // Samples follow the same rule.
+        if let Some(sample) = opaque.sample_f(wo, rng.square(), all) {
+            let side = sample.wi.dot(ng);
+            let through = (wo.dot(ng) > 0.0) != (side > 0.0) && side.abs() > 1e-6;
+            assert!(!through || sample.f.is_black(), "trial {trial}: light leaks to {}", sample.wi);
+        }
+    }
+    assert!(leaks > 10_000, "only {leaks} trials had directions between the two planes");
+}

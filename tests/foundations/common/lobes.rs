@@ -1,0 +1,219 @@
+//! Lobes of the tests' own: what a stranger may put into a `Bsdf`.
+
+use std::f32::consts::{FRAC_1_PI, PI};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use lobe::Spectrum;
+use lobe::bxdf::{Bsdf, BxDF, BxdfFlags, BxdfSample};
+use lobe::glam::{Vec2, Vec3};
+use lobe::sampling::cosine_hemisphere;
+
+/// Anything that scatters, seen in shading coordinates: one lobe, or a whole `Bsdf`.
+pub trait Scatters {
+    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum;
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32;
+    fn sample_f(&self, wo: Vec3, u: Vec2) -> Option<BxdfSample>;
+}
+
+impl Scatters for &dyn BxDF {
+    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+        (**self).f(wo, wi)
+    }
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        (**self).pdf(wo, wi)
+    }
+    fn sample_f(&self, wo: Vec3, u: Vec2) -> Option<BxdfSample> {
+        (**self).sample_f(wo, u)
+    }
+}
+
+/// With all of its lobes, and directions taken to the world and back.
+impl Scatters for Bsdf<'_> {
+    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+        let frame = self.frame();
+        Bsdf::f(self, frame.to_world(wo), frame.to_world(wi), BxdfFlags::all())
+    }
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        let frame = self.frame();
+        Bsdf::pdf(self, frame.to_world(wo), frame.to_world(wi), BxdfFlags::all())
+    }
+    fn sample_f(&self, wo: Vec3, u: Vec2) -> Option<BxdfSample> {
+        let frame = self.frame();
+        let sample = Bsdf::sample_f(self, frame.to_world(wo), u, BxdfFlags::all())?;
+        Some(BxdfSample { wi: frame.to_local(sample.wi), ..sample })
+    }
+}
+
+/// A glossy, anisotropic lobe with sampling of its own: the cosine hemisphere stretched along x and
+/// y by M (Heitz et al. 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines").
+/// f cos θ is R times the density, so its albedo is R for every direction.
+#[derive(Clone, Copy)]
+pub struct Stretched {
+    pub r: f32,
+    pub m: Vec3,
+}
+
+impl BxDF for Stretched {
+    fn flags(&self) -> BxdfFlags {
+        BxdfFlags::REFLECTION | BxdfFlags::GLOSSY
+    }
+
+    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+        let cos = wi.z.abs();
+        Spectrum::splat(if cos > 0.0 { self.r * self.pdf(wo, wi) / cos } else { 0.0 })
+    }
+
+    fn sample_f(&self, wo: Vec3, u: Vec2) -> Option<BxdfSample> {
+        let mut wi = (self.m * cosine_hemisphere::sample(u)).normalize();
+        wi.z = wi.z.copysign(wo.z);
+        let pdf = self.pdf(wo, wi);
+        (pdf > 0.0).then(|| BxdfSample { f: self.f(wo, wi), wi, pdf, flags: self.flags() })
+    }
+
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        if wi.z == 0.0 || (wi.z > 0.0) != (wo.z > 0.0) {
+            return 0.0;
+        }
+        let before = wi / self.m;
+        let length = before.length();
+        let cos = before.z.abs() / length;
+        cos * FRAC_1_PI / (length.powi(3) * self.m.element_product())
+    }
+}
+
+/// Lambert's law on the other side of the surface.
+#[derive(Clone, Copy)]
+pub struct Through(pub f32);
+
+impl BxDF for Through {
+    fn flags(&self) -> BxdfFlags {
+        BxdfFlags::TRANSMISSION | BxdfFlags::DIFFUSE
+    }
+
+    fn f(&self, _wo: Vec3, _wi: Vec3) -> Spectrum {
+        Spectrum::splat(self.0 * FRAC_1_PI)
+    }
+
+    fn sample_f(&self, wo: Vec3, u: Vec2) -> Option<BxdfSample> {
+        let mut wi = cosine_hemisphere::sample(u);
+        wi.z = wi.z.copysign(-wo.z);
+        let pdf = self.pdf(wo, wi);
+        (pdf > 0.0).then(|| BxdfSample { f: self.f(wo, wi), wi, pdf, flags: self.flags() })
+    }
+
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        if (wi.z > 0.0) != (wo.z > 0.0) { wi.z.abs() * FRAC_1_PI } else { 0.0 }
+    }
+}
+
+/// A delta lobe: a mirror, or with `eta` a smooth boundary that only transmits.
+#[derive(Clone, Copy)]
+pub struct Delta {
+    pub r: f32,
+    pub eta: Option<f32>,
+}
+
+impl BxDF for Delta {
+    fn flags(&self) -> BxdfFlags {
+        let side = if self.eta.is_some() { BxdfFlags::TRANSMISSION } else { BxdfFlags::REFLECTION };
+        side | BxdfFlags::SPECULAR
+    }
+
+    fn f(&self, _wo: Vec3, _wi: Vec3) -> Spectrum {
+        Spectrum::BLACK
+    }
+
+    fn sample_f(&self, wo: Vec3, _u: Vec2) -> Option<BxdfSample> {
+        let n = Vec3::Z * wo.z.signum();
+        let wi = match self.eta {
+            None => lobe::geometry::reflect(wo, n),
+            Some(eta) if wo.z > 0.0 => lobe::geometry::refract(wo, n, 1.0 / eta)?,
+            Some(eta) => lobe::geometry::refract(wo, n, eta)?,
+        };
+        Some(BxdfSample {
+            f: Spectrum::splat(self.r / wi.z.abs()),
+            wi,
+            pdf: 1.0,
+            flags: self.flags(),
+        })
+    }
+
+    fn pdf(&self, _wo: Vec3, _wi: Vec3) -> f32 {
+        0.0
+    }
+}
+
+/// Another lobe with nothing but its `f`: everything else is the trait's default.
+#[derive(Clone, Copy)]
+pub struct Plain<B>(pub B);
+
+impl<B: BxDF> BxDF for Plain<B> {
+    fn flags(&self) -> BxdfFlags {
+        self.0.flags()
+    }
+    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+        self.0.f(wo, wi)
+    }
+}
+
+/// Gives these answers, whatever it is asked.
+#[derive(Clone, Copy)]
+pub struct Broken {
+    pub f: f32,
+    pub pdf: f32,
+    pub wi: Vec3,
+    pub flags: BxdfFlags,
+}
+
+impl Broken {
+    /// Gives the answers of a diffuser but for the value.
+    pub fn with_f(f: f32) -> Self {
+        let flags = BxdfFlags::REFLECTION | BxdfFlags::DIFFUSE;
+        Self { f, pdf: 1.0 / PI, wi: Vec3::Z, flags }
+    }
+}
+
+impl BxDF for Broken {
+    fn flags(&self) -> BxdfFlags {
+        self.flags
+    }
+    fn f(&self, _wo: Vec3, _wi: Vec3) -> Spectrum {
+        Spectrum::new(0.1, self.f, 0.1)
+    }
+    fn sample_f(&self, wo: Vec3, _u: Vec2) -> Option<BxdfSample> {
+        Some(BxdfSample { f: self.f(wo, self.wi), wi: self.wi, pdf: self.pdf, flags: self.flags })
+    }
+    fn pdf(&self, _wo: Vec3, _wi: Vec3) -> f32 {
+        self.pdf
+    }
+    fn rho_hd(&self, wo: Vec3, _u: &[Vec2]) -> Spectrum {
+        self.f(wo, wo)
+    }
+    fn rho_hh(&self, _u1: &[Vec2], _u2: &[Vec2]) -> Spectrum {
+        self.f(Vec3::Z, Vec3::Z)
+    }
+}
+
+/// Counts how often it is asked.
+#[derive(Default)]
+pub struct Counting(AtomicU32);
+
+impl Counting {
+    pub fn calls(&self) -> u32 {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+impl BxDF for Counting {
+    fn flags(&self) -> BxdfFlags {
+        BxdfFlags::REFLECTION | BxdfFlags::DIFFUSE
+    }
+    fn f(&self, _wo: Vec3, _wi: Vec3) -> Spectrum {
+        self.0.fetch_add(1, Ordering::Relaxed);
+        Spectrum::WHITE
+    }
+    fn pdf(&self, _wo: Vec3, _wi: Vec3) -> f32 {
+        self.0.fetch_add(1, Ordering::Relaxed);
+        1.0
+    }
+}

@@ -1,0 +1,72 @@
+//! Meshes to shoot at.
+
+use std::collections::HashMap;
+
+use lobe::TriangleMesh;
+use lobe::glam::{DVec3, Vec3};
+
+use super::Rng;
+
+/// A closed surface around the origin whose radius is between 0.7 and 1.3: an octahedron whose faces
+/// are cut into four `levels` times, with every vertex moved in or out. 8 · 4^levels triangles.
+pub fn lumpy(levels: u32, seed: u64) -> TriangleMesh {
+    let mut points: Vec<DVec3> =
+        vec![DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
+    let mut indices: Vec<[u32; 3]> = vec![
+        [0, 1, 2],
+        [1, 3, 2],
+        [3, 4, 2],
+        [4, 0, 2],
+        [1, 0, 5],
+        [3, 1, 5],
+        [4, 3, 5],
+        [0, 4, 5],
+    ];
+    for _ in 0..levels {
+        let mut middles = HashMap::new();
+        let mut finer = Vec::with_capacity(4 * indices.len());
+        for [a, b, c] in indices {
+            let mut middle = |a: u32, b: u32| {
+                *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                    points.push((points[a as usize] + points[b as usize]).normalize());
+                    points.len() as u32 - 1
+                })
+            };
+            let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+            finer.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
+        }
+        indices = finer;
+    }
+    // Bumps no steeper than the triangles are long.
+    let amplitude = 0.3 / f64::from(1 << levels.saturating_sub(1));
+    let lump = |i: usize, p: DVec3| {
+        let waves = 0.1 * (5.0 * p.x + 1.0).sin() * (7.0 * p.y).cos() + 0.1 * (6.0 * p.z).sin();
+        p * (1.0 + waves + amplitude * (Rng::new(seed, i as u64).f64() - 0.5).clamp(-0.3, 0.3))
+    };
+    let positions = points.into_iter().enumerate().map(|(i, p)| lump(i, p).as_vec3()).collect();
+    TriangleMesh { positions, indices, ..TriangleMesh::default() }
+}
+
+/// The mesh, larger by `scale` and then moved.
+pub fn placed(mut mesh: TriangleMesh, scale: f32, offset: Vec3) -> TriangleMesh {
+    mesh.positions.iter_mut().for_each(|p| *p = *p * scale + offset);
+    mesh
+}
+
+/// A mesh of this one triangle.
+pub fn single(corners: [Vec3; 3]) -> TriangleMesh {
+    TriangleMesh {
+        positions: corners.to_vec(),
+        indices: vec![[0, 1, 2]],
+        ..TriangleMesh::default()
+    }
+}
+
+/// Triangles that share nothing.
+pub fn soup(triangles: &[[Vec3; 3]]) -> TriangleMesh {
+    TriangleMesh {
+        positions: triangles.concat(),
+        indices: (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+        ..TriangleMesh::default()
+    }
+}

@@ -1,0 +1,9 @@
+//! What the tests share.
+
+pub mod lobes;
+pub mod meshes;
+pub mod rng;
+pub mod sphere;
+pub mod stats;
+
+pub use rng::Rng;

@@ -1,0 +1,236 @@
+//! Energy: reflectances against closed forms, quadrature and Monte Carlo, and the white furnace.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use lobe::Spectrum;
+use lobe::bxdf::{Bsdf, BxDF, BxdfFlags, LambertianReflection, Lobe, OrenNayar, ScaledBxDF};
+use lobe::geometry::Frame;
+use lobe::glam::{Vec2, Vec3};
+
+use crate::common::Rng;
+use crate::common::lobes::{Plain, Stretched};
+use crate::common::sphere::gauss;
+use crate::common::stats::{assert_mean, mean};
+
+const COSINES: [f32; 7] = [1.0, 0.9, 0.7, 0.3, 0.05, 1e-4, -0.6];
+const SIGMAS: [f32; 6] = [0.01, 5.0, 11.0, 20.0, 45.0, 90.0];
+
+fn view(cos: f32) -> Vec3 {
+    Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos)
+}
+
+fn first(spectrum: Spectrum) -> f64 {
+    spectrum.to_array()[0].into()
+}
+
+/// ∫ f |cos θi| over the hemisphere of `wo`, which lies above y = 0 and for which f is even in φ. The
+/// range of θ is cut at that of `wo` and φ at a right angle, where Oren-Nayar's model has its edges.
+fn reflectance(lobe: &dyn BxDF, wo: Vec3) -> f64 {
+    const PIECES: usize = 12;
+    let side = f64::from(wo.z.signum());
+    let theta_o = f64::from(wo.x).atan2(f64::from(wo.z.abs()));
+    let mut sum = 0.0;
+    for [low, high] in [[0.0, theta_o], [theta_o, FRAC_PI_2]] {
+        for [from, to] in [[0.0, FRAC_PI_2], [FRAC_PI_2, PI]] {
+            for (i, j) in (0..PIECES).flat_map(|i| (0..PIECES).map(move |j| (i, j))) {
+                let cut = |a: f64, b: f64, i: usize| a + (b - a) * i as f64 / PIECES as f64;
+                for (theta, theta_weight) in gauss([cut(low, high, i), cut(low, high, i + 1)]) {
+                    for (phi, phi_weight) in gauss([cut(from, to, j), cut(from, to, j + 1)]) {
+                        let (sin, cos) = theta.sin_cos();
+                        let wi = Vec3::new(
+                            (sin * phi.cos()) as f32,
+                            (sin * phi.sin()) as f32,
+                            (side * cos) as f32,
+                        );
+                        sum += 2.0 * theta_weight * phi_weight * first(lobe.f(wo, wi)) * sin * cos;
+                    }
+                }
+            }
+        }
+    }
+    sum
+}
+
+/// The crate's lobes in one band, at an albedo that tells R from R².
+fn lobes() -> Vec<(String, Box<dyn BxDF>)> {
+    let r = Spectrum::splat(0.8);
+    let mut lobes: Vec<(String, Box<dyn BxDF>)> = vec![
+        ("Lambertian".into(), Box::new(LambertianReflection::new(r))),
+        ("scaled".into(), Box::new(ScaledBxDF::new(OrenNayar::new(r, 20.0), Spectrum::splat(0.5)))),
+    ];
+    lobes.extend(SIGMAS.map(|sigma| -> (String, Box<dyn BxDF>) {
+        (format!("Oren-Nayar {sigma}"), Box::new(OrenNayar::new(r, sigma)))
+    }));
+    lobes
+}
+
+/// Caught: half of `within` and a third of `beyond` in Oren-Nayar's closed form; the scale left out of
+/// `ScaledBxDF::rho_hd`.
+#[test]
+fn directional_reflectance_is_the_integral_of_f() {
+    for (name, lobe) in lobes() {
+        for cos in COSINES {
+            let (closed, integral) =
+                (first(lobe.rho_hd(view(cos), &[])), reflectance(&*lobe, view(cos)));
+            assert!(
+                (closed - integral).abs() < 2e-6,
+                "{name}, cos {cos}: {closed}, integral {integral}"
+            );
+        }
+    }
+}
+
+/// ρ_hh = 2 ∫ ρ_hd cos θ sin θ dθ. Caught: 64/45 taken for 32/45.
+#[test]
+fn hemispherical_reflectance_is_the_mean_of_the_directional() {
+    for (name, lobe) in lobes() {
+        let mut integral = 0.0;
+        for piece in 0..24 {
+            let at = |i: usize| FRAC_PI_2 * i as f64 / 24.0;
+            for (theta, weight) in gauss([at(piece), at(piece + 1)]) {
+                let wo = Vec3::new(theta.sin() as f32, 0.0, theta.cos() as f32);
+                integral += 2.0 * weight * theta.sin() * theta.cos() * first(lobe.rho_hd(wo, &[]));
+            }
+        }
+        let closed = first(lobe.rho_hh(&[], &[]));
+        assert!((closed - integral).abs() < 2e-6, "{name}: {closed}, integral {integral}");
+    }
+}
+
+/// Points for one batch of a Monte Carlo estimate.
+fn points(test: u64, batch: u64) -> Vec<Vec2> {
+    let mut rng = Rng::new(test, batch);
+    (0..4096).map(|_| rng.square()).collect()
+}
+
+/// The trait's Monte Carlo estimates have the closed forms for their mean: 64 batches of 4096 points. Caught:
+/// the cosine left out of the throughput; the weight of wo without its cosine; |cos θi| for cos θi below
+/// the surface.
+#[test]
+fn monte_carlo_agrees_with_closed_forms() {
+    /// A lobe with nothing but its f, and the lobe.
+    type Pair = (String, Box<dyn BxDF>, Box<dyn BxDF>);
+    let r = Spectrum::splat(0.8);
+    let mut pairs: Vec<Pair> = vec![(
+        "Lambertian".into(),
+        Box::new(Plain(LambertianReflection::new(r))),
+        Box::new(LambertianReflection::new(r)),
+    )];
+    pairs.extend(SIGMAS.map(|sigma| -> Pair {
+        let lobe = OrenNayar::new(r, sigma);
+        (format!("Oren-Nayar {sigma}"), Box::new(Plain(lobe)), Box::new(lobe))
+    }));
+    let runs = pairs.len() * (COSINES.len() + 1);
+    for (name, plain, closed) in pairs {
+        // Rounding alone moves a constant estimate.
+        let floor = |error: f64| error.max(1e-6);
+        for cos in COSINES {
+            let batches = (0..64).map(|b| first(plain.rho_hd(view(cos), &points(400, b))));
+            let (mean, error) = mean(batches);
+            let expected = first(closed.rho_hd(view(cos), &[]));
+            assert_mean(mean, floor(error), expected, runs, &format!("{name}, cos {cos}"));
+        }
+        let batches = (0..64).map(|b| first(plain.rho_hh(&points(401, b), &points(402, b))));
+        let (mean, error) = mean(batches);
+        assert_mean(mean, floor(error), first(closed.rho_hh(&[], &[])), runs, &name);
+    }
+}
+
+/// A lobe whose own sampling has f cos θ / pdf = R for every sample, so that any number of points
+/// gives R; and no points at all give black, not 0 / 0. Caught: a division by the count of samples
+/// that the lobe gave, and by an empty slice's length.
+#[test]
+fn monte_carlo_counts_its_points() {
+    let lobe = Stretched { r: 0.7, m: Vec3::new(0.2, 0.6, 1.0) };
+    let inside = |u: &[Vec2]| u.iter().filter(|u| u.min_element() > 0.0).count() as f64;
+    for count in [1, 2, 100] {
+        let u = &points(403, 0)[..count];
+        let rho = first(lobe.rho_hd(view(0.5), u));
+        assert!((rho - 0.7 * inside(u) / count as f64).abs() < 1e-5, "{count}: {rho}");
+    }
+    // One of these two has no direction: it lies on the border of the square.
+    let rho = first(lobe.rho_hd(view(0.5), &[Vec2::new(0.0, 0.3), Vec2::splat(0.3)]));
+    assert!((rho - 0.35).abs() < 1e-5, "{rho}");
+    assert!(lobe.rho_hd(view(0.5), &[]).is_black());
+    assert!(lobe.rho_hh(&[], &points(403, 0)).is_black());
+    let (short, long) = (&points(404, 0)[..7], points(405, 0));
+    assert_eq!(lobe.rho_hh(short, &long), lobe.rho_hh(short, &long[..7]));
+}
+
+/// A white furnace: what a white body gives back of uniform light. Lambert's law loses nothing.
+/// Oren-Nayar's model leaves out light that goes between grooves and loses up to 44 %, but close to the
+/// horizon its qualitative form gives back **more** than comes in, up to 1.5 % at sigma 11 degrees: an
+/// error of the model, not of this code. 1 - ρ_hd, by sigma (rows) and cos θ (columns):
+#[rustfmt::skip]
+const FURNACE_LOSS: [[f64; 5]; 6] = [
+    // 1.0       0.7       0.3      0.05      1e-4
+    [ 0.0000,   0.0000,   0.0000,   0.0000,   0.0000],
+    [ 0.0113,   0.0041,  -0.0023,  -0.0057,  -0.0063],
+    [ 0.0502,   0.0235,  -0.0003,  -0.0130,  -0.0151],
+    [ 0.1348,   0.0818,   0.0348,   0.0097,   0.0054],
+    [ 0.3257,   0.2453,   0.1739,   0.1359,   0.1294],
+    [ 0.4410,   0.3521,   0.2732,   0.2311,   0.2239],
+];
+
+/// Caught: B's 0.45 taken for 0.5, which the comparisons of the model with itself do not see.
+#[test]
+fn white_furnace() {
+    for (sigma, losses) in SIGMAS.into_iter().zip(FURNACE_LOSS) {
+        let white = OrenNayar::new(Spectrum::WHITE, sigma);
+        for (cos, loss) in [1.0, 0.7, 0.3, 0.05, 1e-4].into_iter().zip(losses) {
+            let found = 1.0 - reflectance(&white, view(cos));
+            assert!(
+                (found - loss).abs() < 1e-4,
+                "sigma {sigma}, cos {cos}: {found}, expected {loss}"
+            );
+        }
+    }
+    let white = LambertianReflection::new(Spectrum::WHITE);
+    for cos in COSINES {
+        assert!((reflectance(&white, view(cos)) - 1.0).abs() < 1e-6, "cos {cos}");
+    }
+}
+
+/// No model gives back more than it gets, with the exception above: ρ_hd stays below 1.0152 R, and below
+/// R from sigma 20 degrees on. Caught: B's 0.45 taken for 0.5.
+#[test]
+fn reflectance_is_bounded() {
+    for tenths in 0..=900 {
+        let sigma = tenths as f32 / 10.0;
+        let lobe = OrenNayar::new(Spectrum::new(1.0, 0.5, 0.0), sigma);
+        for step in 1..=200 {
+            let cos = (step as f32 / 200.0).powi(2);
+            let [r, g, b] = lobe.rho_hd(view(cos), &[]).to_array();
+            let bound = if sigma < 20.0 { 1.0152 } else { 1.0 };
+            assert!((0.0..=bound).contains(&r), "sigma {sigma}, cos {cos}: {r}");
+            assert!((g - 0.5 * r).abs() < 1e-6 && b == 0.0, "sigma {sigma}, cos {cos}");
+        }
+    }
+}
+
+/// A sum of lobes reflects the sum of what they reflect, by quadrature, by its own `rho_hd` and by the
+/// mean of f cos θ / pdf over its samples. Caught: `rho_hd` of the first lobe alone.
+#[test]
+fn sums_of_lobes_add_up() {
+    let n = Vec3::new(0.48, 0.6, 0.64);
+    let gloss = Stretched { r: 0.3, m: Vec3::new(0.3, 0.3, 1.0) };
+    let rough = OrenNayar::new(Spectrum::splat(0.4), 40.0);
+    let mut bsdf = Bsdf::new(Frame::from_normal(n), n, 1.0);
+    bsdf.add(LambertianReflection::new(Spectrum::splat(0.2)));
+    bsdf.add(rough);
+    bsdf.add(Lobe::Custom(&gloss));
+    let all = BxdfFlags::all();
+    for cos in [1.0, 0.7, 0.3, 0.05] {
+        let wo = bsdf.frame().to_world(view(cos));
+        let expected = 0.5 + reflectance(&rough, view(cos));
+        let (own, own_error) = mean((0..16).map(|b| first(bsdf.rho_hd(wo, &points(406, b), all))));
+        assert_mean(own, own_error.max(1e-6), expected, 8, &format!("rho_hd, cos {cos}"));
+        let mut rng = Rng::new(407, 0);
+        let samples = (0..200_000).map(|_| {
+            let sample = bsdf.sample_f(wo, rng.square(), all);
+            sample.map_or(0.0, |s| first(s.f) * f64::from(s.wi.dot(n).abs() / s.pdf))
+        });
+        let (sampled, error) = mean(samples);
+        assert_mean(sampled, error, expected, 8, &format!("samples, cos {cos}"));
+    }
+}

@@ -1,0 +1,136 @@
+//! Bounds on rounding hold the truth.
+
+use lobe::geometry::BoundedPoint;
+use lobe::geometry::float::{ONE_MINUS_EPSILON, UNIT_ROUNDOFF, gamma};
+use lobe::glam::{DVec3, Vec3};
+
+use crate::common::Rng;
+
+/// n rounded products and quotients in a row stay within γₙ of the exact value. Caught: n u in place of
+/// n u / (1 - n u) for long rows of truncations; half of it for short ones.
+#[test]
+fn gamma_bounds_products() {
+    for trial in 0..300_000 {
+        let mut rng = Rng::new(700, trial);
+        let n = 1 + rng.below(40) as u32;
+        let (mut value, mut truth) = (1.0_f32, 1.0_f64);
+        for _ in 0..n {
+            let factor = rng.within(0.5, 2.0);
+            if rng.sign() > 0.0 {
+                value *= factor;
+                truth *= f64::from(factor);
+            } else {
+                value /= factor;
+                truth /= f64::from(factor);
+            }
+        }
+        let error = (f64::from(value) / truth - 1.0).abs();
+        assert!(error <= f64::from(gamma(n)), "trial {trial}: {n} operations, error {error}");
+    }
+}
+
+/// Caught: γ with u = 2⁻²³ or 2⁻²⁵.
+#[test]
+fn gamma_is_its_formula() {
+    let u = 0.5_f64.powi(24);
+    assert_eq!(f64::from(UNIT_ROUNDOFF), u);
+    assert_eq!(f64::from(ONE_MINUS_EPSILON), 1.0 - u);
+    assert_eq!(ONE_MINUS_EPSILON.next_up(), 1.0);
+    for n in 1..1000 {
+        let truth = f64::from(n) * u / (1.0 - f64::from(n) * u);
+        assert!((f64::from(gamma(n)) / truth - 1.0).abs() <= u, "{n}");
+        // The first operation of n may be off by u, whose bound is above u.
+        assert!(f64::from(gamma(n)) > f64::from(n) * u * (1.0 - u), "{n}");
+    }
+}
+
+/// What stepping away from a surface relies on: next_up and next_down move by one float, through zero
+/// of either sign and over powers of two.
+#[test]
+fn neighbours_of_floats() {
+    for zero in [0.0_f32, -0.0] {
+        assert_eq!(zero.next_up(), f32::from_bits(1));
+        assert_eq!(zero.next_down(), -f32::from_bits(1));
+    }
+    for trial in 0..100_000 {
+        let mut rng = Rng::new(701, trial);
+        let x = if trial % 4 == 0 {
+            rng.coordinate(38.0).log2().round().exp2()
+        } else {
+            rng.coordinate(38.0)
+        };
+        if !x.is_finite() {
+            continue;
+        }
+        assert!(x.next_down() < x && x < x.next_up(), "{x}");
+        assert_eq!(x.next_up().next_down(), x);
+        let middle = 0.5 * (f64::from(x) + f64::from(x.next_up()));
+        assert!(middle as f32 == x || middle as f32 == x.next_up(), "{x} has a float between");
+    }
+}
+
+/// A point of a triangle as a ray test finds it, and the truth.
+///
+/// The model: edge functions e are given and exact, weights are e over their sum as floats compute it,
+/// the truth is the point of the exact quotients. Two times in three, each weight is moved to an end of
+/// what one more rounding might have made of it.
+fn point_of_triangle(rng: &mut Rng) -> (BoundedPoint, DVec3, [Vec3; 3]) {
+    let corners = [(); 3].map(|()| rng.point(8.0));
+    let e = [(); 3].map(|()| if rng.f32() < 0.2 { rng.f32() * 1e-6 } else { rng.f32() });
+    let sum = e[0] + e[1] + e[2];
+    let b = e.map(|e| match rng.below(3) {
+        0 => (e / sum).next_up(),
+        1 => (e / sum).next_down().max(0.0),
+        _ => e / sum,
+    });
+    let [e0, e1, e2] = e.map(f64::from);
+    let [p0, p1, p2] = corners.map(|p| p.as_dvec3());
+    let truth = (e0 * p0 + e1 * p1 + e2 * p2) / (e0 + e1 + e2);
+    (BoundedPoint::on_triangle(corners, b), truth, corners)
+}
+
+/// 1e6 trials with coordinates 10^U(-8, 8). Caught: γ₂ in place of γ₇; the error relative to the
+/// point itself, which cancels.
+#[test]
+fn points_of_triangles_hold_the_truth() {
+    for trial in 0..1_000_000 {
+        let mut rng = Rng::new(702, trial);
+        let (point, truth, corners) = point_of_triangle(&mut rng);
+        let error = (point.p.as_dvec3() - truth).abs();
+        let bound = point.error.as_dvec3();
+        assert!(
+            error.cmple(bound).all(),
+            "trial {trial}: {corners:?}: off by {error}, bound {bound}"
+        );
+    }
+}
+
+/// A ray's origin lies outside of the error box, on the side that the ray leaves to: the whole box is on
+/// the other side of the plane through the origin across the normal. Caught: the origin without the last
+/// step to the next float; the offset along the ray; the side of the normal for all rays.
+#[test]
+fn rays_begin_outside_of_the_error() {
+    for trial in 0..1_000_000 {
+        let mut rng = Rng::new(703, trial);
+        let (point, _, _) = point_of_triangle(&mut rng);
+        let n = if rng.f32() < 0.2 {
+            [Vec3::X, Vec3::NEG_Y, Vec3::Z][rng.below(3)]
+        } else {
+            rng.direction()
+        };
+        let w = rng.direction();
+        let origin = point.ray_origin(n, w).as_dvec3();
+        let side = f64::from(w.dot(n).signum());
+        let n64 = n.as_dvec3();
+        let clearance =
+            side * n64.dot(origin - point.p.as_dvec3()) - n64.abs().dot(point.error.as_dvec3());
+        assert!(
+            clearance >= 0.0,
+            "trial {trial}: {point:?}, n {n}, w {w}: origin {origin} is {clearance} inside"
+        );
+        // And not further than need be: no axis moves by more than the error and a few floats.
+        let moved = (origin - point.p.as_dvec3()).abs().max_element();
+        let need = 2.0 * point.error.as_dvec3().length() + 3e-7 * point.p.as_dvec3().length();
+        assert!(moved <= need + 1e-44, "trial {trial}: moved by {moved}");
+    }
+}

@@ -1,0 +1,16 @@
+//! What everything else stands on: sampling, lobes, floats, rays and what is known about a hit.
+//!
+//! One program, so that its modules share `common` and link once; `cargo test sampling` and
+//! `cargo test energy` select by the names of modules. Each test says in its comment which break of
+//! the code it was seen to catch.
+
+mod common;
+
+mod bxdf;
+mod energy;
+mod floats;
+mod frames;
+mod interaction;
+mod optics;
+mod rays;
+mod sampling;
