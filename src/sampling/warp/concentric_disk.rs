@@ -4,30 +4,53 @@
 //! larger of |a| and |b| is the radius, and their ratio runs through an eighth of a turn. Neighbours
 //! stay neighbours, so that stratified samples stay stratified.
 
-use std::f32::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4};
+use std::f32::consts::{FRAC_1_PI, FRAC_PI_4};
 
-use glam::Vec2;
+use glam::{Vec2, Vec2Swizzles};
 
 /// A point of the unit disk.
 #[inline]
 pub fn sample(u: Vec2) -> Vec2 {
-    let (r, phi) = polar(u);
-    r * Vec2::from_angle(phi)
+    let (r, direction) = polar(u);
+    r * direction
 }
 
-/// The signed radius and the angle of the point that [`sample`] gives. The radius is exact for any
-/// u on the grid of floats that samplers give, and 1 only at the border of the square.
+/// The signed radius of the point that [`sample`] gives, and the unit vector towards it. The radius is
+/// exact for any u on the grid of floats that samplers give, and 1 only at the border of the square.
 #[inline]
-pub(super) fn polar(u: Vec2) -> (f32, f32) {
+pub(super) fn polar(u: Vec2) -> (f32, Vec2) {
     let square = 2.0 * u - Vec2::ONE;
     if square.x.abs() > square.y.abs() {
-        (square.x, FRAC_PI_4 * (square.y / square.x))
+        (square.x, eighth_turn(square.y / square.x))
     } else if square.y != 0.0 {
-        (square.y, FRAC_PI_2 - FRAC_PI_4 * (square.x / square.y))
+        // φ = π/2 - π/4 (a/b): sine and cosine change places.
+        (square.y, eighth_turn(square.x / square.y).yx())
     } else {
-        (0.0, 0.0)
+        (0.0, Vec2::X)
     }
 }
+
+/// The unit vector at the angle π/4 · `share`, for a share in `[-1, 1]`.
+///
+/// The series of cosine and sine up to the terms that f32 can see at an eighth of a turn: within 2⁻²³,
+/// faster than the general functions, and the same on every platform.
+#[inline]
+fn eighth_turn(share: f32) -> Vec2 {
+    let x = FRAC_PI_4 * share;
+    let x2 = x * x;
+    // Horner's rule on 1/n!, with alternating signs.
+    let cos = 1.0 + x2 * (-0.5 + x2 * (C4 + x2 * (C6 + x2 * C8)));
+    let sin = x + x * x2 * (S3 + x2 * (S5 + x2 * (S7 + x2 * S9)));
+    Vec2::new(cos, sin)
+}
+
+const C4: f32 = 1.0 / 24.0;
+const C6: f32 = -1.0 / 720.0;
+const C8: f32 = 1.0 / 40_320.0;
+const S3: f32 = -1.0 / 6.0;
+const S5: f32 = 1.0 / 120.0;
+const S7: f32 = -1.0 / 5_040.0;
+const S9: f32 = 1.0 / 362_880.0;
 
 /// Density over area, 1/π everywhere on the disk.
 #[inline]
@@ -49,4 +72,28 @@ pub fn inverse(p: Vec2) -> Vec2 {
         Vec2::ZERO
     };
     (square + Vec2::ONE) / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against f64, over the whole square. Seen to fail with the last term of either series left out.
+    #[test]
+    fn sampling_by_series_is_exact_to_rounding() {
+        let steps = 1 << 10;
+        for place in 0..steps * steps {
+            let u = Vec2::new((place % steps) as f32, (place / steps) as f32) / steps as f32;
+            let square = 2.0 * u.as_dvec2() - 1.0;
+            let quarter = std::f64::consts::FRAC_PI_4;
+            let (r, phi) = match square {
+                s if s.x.abs() > s.y.abs() => (s.x, quarter * (s.y / s.x)),
+                s if s.y != 0.0 => (s.y, 2.0 * quarter - quarter * (s.x / s.y)),
+                _ => (0.0, 0.0),
+            };
+            let error =
+                (sample(u).as_dvec2() - r * glam::DVec2::from_angle(phi)).abs().max_element();
+            assert!(error <= f64::from(f32::EPSILON), "{u}: error {error}");
+        }
+    }
 }

@@ -14,10 +14,9 @@ use super::concentric_disk;
 /// A unit vector with z ≥ 0; z = 0 only where u is on the border of the square.
 #[inline]
 pub fn sample(u: Vec2) -> Vec3 {
-    let (r, phi) = concentric_disk::polar(u);
-    let disk = r * Vec2::from_angle(phi);
+    let (r, direction) = concentric_disk::polar(u);
     // (1 - r)(1 + r), not 1 - x² - y²: grazing directions keep their digits and stay above the surface.
-    disk.extend(((1.0 - r) * (1.0 + r)).sqrt())
+    (r * direction).extend(((1.0 - r) * (1.0 + r)).sqrt())
 }
 
 /// Density over solid angle, cos θ / π; zero below the horizon.
