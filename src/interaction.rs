@@ -1,12 +1,10 @@
 //! [`SurfaceInteraction`]: what is known about a hit.
 
-use std::cell::OnceCell;
-
 use glam::{Vec2, Vec3};
 
 use crate::geometry::float::ONE_MINUS_EPSILON;
 use crate::geometry::{BoundedPoint, Frame, Ray};
-use crate::shape::TriangleMesh;
+use crate::shape::{TriangleMesh, triangle_normal};
 
 /// How position and normal change with the texture coordinates (u, v).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -39,8 +37,7 @@ pub struct Shading {
 
 /// A point where a ray meets a surface, in world space (PBRT 3rd edition, section 2.10.1).
 ///
-/// It is lazy: point and normals are found when it is made, everything else when it is asked for,
-/// and what takes more than a few operations is kept once found.
+/// It is lazy: point and normals are found when it is made, everything else when it is asked for.
 #[derive(Clone)]
 pub struct SurfaceInteraction<'a> {
     p: Vec3,
@@ -48,15 +45,15 @@ pub struct SurfaceInteraction<'a> {
     n: Vec3,
     shading_n: Vec3,
     source: Source<'a>,
-    partials: OnceCell<Partials>,
-    shading: OnceCell<Shading>,
+    /// What [`SurfaceInteraction::set_shading`] was given.
+    displaced: Option<Shading>,
 }
 
 /// Where the answers come from.
 #[derive(Clone)]
 enum Source<'a> {
     Triangle { mesh: &'a TriangleMesh, triangle: usize, b: [f32; 3] },
-    Given { p_error: Vec3, uv: Vec2, shading_dn: [Vec3; 2] },
+    Given { p_error: Vec3, uv: Vec2, partials: Partials },
 }
 
 impl<'a> SurfaceInteraction<'a> {
@@ -66,20 +63,20 @@ impl<'a> SurfaceInteraction<'a> {
     /// If `triangle` is not one of the mesh's.
     #[inline]
     pub fn on_triangle(mesh: &'a TriangleMesh, triangle: usize, b: [f32; 3], wo: Vec3) -> Self {
-        let n = mesh.geometric_normal(triangle);
+        let corners = mesh.corners(triangle);
+        let n = triangle_normal(corners);
         // With vertex normals, they say which side is outside (PBRT 3rd edition, section 3.6.2).
         let (n, shading_n) = match mesh.shading_normal(triangle, b) {
             Some(ns) => (if n.dot(ns) < 0.0 { -n } else { n }, ns),
             None => (n, n),
         };
         Self {
-            p: BoundedPoint::on_triangle(mesh.corners(triangle), b).p,
+            p: BoundedPoint::on_triangle(corners, b).p,
             wo,
             n,
             shading_n,
             source: Source::Triangle { mesh, triangle, b },
-            partials: OnceCell::new(),
-            shading: OnceCell::new(),
+            displaced: None,
         }
     }
 
@@ -92,13 +89,8 @@ impl<'a> SurfaceInteraction<'a> {
             wo,
             n,
             shading_n: n,
-            source: Source::Given {
-                p_error: p.error,
-                uv,
-                shading_dn: [partials.dndu, partials.dndv],
-            },
-            partials: partials.into(),
-            shading: OnceCell::new(),
+            source: Source::Given { p_error: p.error, uv, partials },
+            displaced: None,
         }
     }
 
@@ -149,15 +141,15 @@ impl<'a> SurfaceInteraction<'a> {
         self.shading_n
     }
 
-    /// The derivatives of the surface itself.
-    pub fn partials(&self) -> &Partials {
-        self.partials.get_or_init(|| match &self.source {
+    /// The derivatives of the surface itself. A triangle is flat: its normal does not change.
+    pub fn partials(&self) -> Partials {
+        match &self.source {
             Source::Triangle { mesh, triangle, .. } => {
                 let [dpdu, dpdv] = mesh.position_partials(*triangle);
                 Partials { dpdu, dpdv, ..Partials::default() }
             }
-            Source::Given { .. } => Partials::default(),
-        })
+            Source::Given { partials, .. } => *partials,
+        }
     }
 
     /// ∂p/∂u.
@@ -170,7 +162,7 @@ impl<'a> SurfaceInteraction<'a> {
         self.partials().dpdv
     }
 
-    /// ∂n/∂u of the geometric normal: zero on a triangle, which is flat.
+    /// ∂n/∂u of the geometric normal.
     pub fn dndu(&self) -> Vec3 {
         self.partials().dndu
     }
@@ -185,42 +177,37 @@ impl<'a> SurfaceInteraction<'a> {
     /// Its tangents are those of the surface, laid into the plane across the shading normal. They
     /// keep their lengths, which bump mapping relies on.
     pub fn shading(&self) -> Shading {
-        *self.shading.get_or_init(|| {
-            let n = self.shading_n;
-            let across = |v: Vec3| v - n * n.dot(v);
-            let (mut dpdu, mut dpdv) = (across(self.dpdu()), across(self.dpdv()));
-            if dpdu.cross(dpdv).try_normalize().is_none() {
-                let frame = Frame::from_normal(n);
-                (dpdu, dpdv) = (frame.s, frame.t);
-            }
-            let [dndu, dndv] = match &self.source {
-                Source::Triangle { mesh, triangle, .. } => mesh.normal_partials(*triangle),
-                Source::Given { shading_dn, .. } => *shading_dn,
-            };
-            Shading { n, dpdu, dpdv, dndu, dndv }
-        })
+        if let Some(displaced) = self.displaced {
+            return displaced;
+        }
+        let n = self.shading_n;
+        let Partials { dpdu, dpdv, dndu, dndv } = self.partials();
+        let [dndu, dndv] = match &self.source {
+            Source::Triangle { mesh, triangle, .. } => mesh.normal_partials(*triangle),
+            Source::Given { .. } => [dndu, dndv],
+        };
+        let [mut dpdu, mut dpdv] = [dpdu, dpdv].map(|v| v - n * n.dot(v));
+        if dpdu.cross(dpdv).try_normalize().is_none() {
+            let frame = Frame::from_normal(n);
+            (dpdu, dpdv) = (frame.s, frame.t);
+        }
+        Shading { n, dpdu, dpdv, dndu, dndv }
     }
 
     /// Replaces the geometry that shading sees, as bump mapping does.
     pub fn set_shading(&mut self, shading: Shading) {
         self.shading_n = shading.n;
-        self.shading = shading.into();
+        self.displaced = Some(shading);
     }
 
     /// This hit as a texture would see it from a point nearby, with another normal.
     pub fn moved_to(&self, p: Vec3, uv: Vec2, n: Vec3) -> Self {
-        let shading = Shading { n, ..self.shading() };
         Self {
             p,
             n,
             shading_n: n,
-            source: Source::Given {
-                p_error: self.p_error(),
-                uv,
-                shading_dn: [shading.dndu, shading.dndv],
-            },
-            partials: (*self.partials()).into(),
-            shading: shading.into(),
+            source: Source::Given { p_error: self.p_error(), uv, partials: self.partials() },
+            displaced: Some(Shading { n, ..self.shading() }),
             wo: self.wo,
         }
     }

@@ -1,4 +1,20 @@
-//! PBRT's materials and reflection, with just enough renderer around them to use them in earnest.
+//! The material and reflection system of PBRT (3rd edition), with just enough renderer around it to use
+//! it in earnest.
+//!
+//! The rooms, from the ground up; none knows those below it in this list:
+//!
+//! - [`Spectrum`], linear RGB; [`geometry`], rays, shading frames and error-bounded points; [`sampling`], warps
+//!   of the unit square and the samplers that fill it;
+//! - [`bxdf`], reflection models and their sum at a hit, [`bxdf::Bsdf`];
+//! - [`shape`], triangle meshes and OBJ files; [`interaction`], what is known about a hit;
+//! - [`texture`], values over a surface; [`material`], which turns them into lobes; [`light`];
+//! - [`accel`], rays against all triangles; [`Camera`]; [`film`], sums of samples, PNG and EXR;
+//! - [`scene`], what there is to render; [`integrator`], how light is computed; [`render`](mod@render), the loop.
+//!
+//! Traits are the doors for other crates: [`bxdf::BxDF`], [`texture::Texture`], [`material::Material`],
+//! [`light::Light`], [`sampling::Sampler`] and [`integrator::Integrator`]. What most callers need stands at the
+//! root. Lengths are in scene units, angles in the unit that each item names, and radiance is in
+//! W / (m² sr) if a scene unit is a metre.
 #![warn(missing_docs)]
 #![deny(unsafe_code)]
 
@@ -26,3 +42,8 @@ pub use render::{RenderOptions, render};
 pub use scene::Scene;
 pub use shape::TriangleMesh;
 pub use spectrum::Spectrum;
+
+/// The README's program, compiled with the documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

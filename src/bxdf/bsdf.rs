@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 
+use arrayvec::ArrayVec;
 use glam::{Vec2, Vec3};
 
 use super::{BxDF, BxdfFlags, BxdfSample, Lobe};
@@ -43,8 +44,8 @@ pub struct Bsdf<'a> {
     frame: Frame,
     ng: Vec3,
     eta: f32,
-    count: usize,
-    lobes: [Option<Lobe<'a>>; MAX_LOBES],
+    /// Each lobe with its kind, so that a question need not ask the lobes that it is not for.
+    lobes: ArrayVec<(Lobe<'a>, BxdfFlags), MAX_LOBES>,
     rejected: Cell<u32>,
 }
 
@@ -55,16 +56,14 @@ impl<'a> Bsdf<'a> {
     /// relative index of refraction over the boundary, 1 for what light does not pass.
     #[inline]
     pub fn new(frame: Frame, ng: Vec3, eta: f32) -> Self {
-        Self { frame, ng, eta, count: 0, lobes: [None; MAX_LOBES], rejected: Cell::new(0) }
+        Self { frame, ng, eta, lobes: ArrayVec::new_const(), rejected: Cell::new(0) }
     }
 
     /// Adds a lobe. Returns whether there was room for it: a ninth lobe is left out.
     #[inline]
     pub fn add(&mut self, lobe: impl Into<Lobe<'a>>) -> bool {
-        let Some(place) = self.lobes.get_mut(self.count) else { return false };
-        *place = Some(lobe.into());
-        self.count += 1;
-        true
+        let lobe = lobe.into();
+        self.lobes.try_push((lobe, lobe.flags())).is_ok()
     }
 
     /// The shading frame.
@@ -114,16 +113,16 @@ impl<'a> Bsdf<'a> {
         // Choose which lobe to sample, and stretch what is left of u.x over [0, 1) again.
         let scaled = u.x * matching as f32;
         let chosen = (scaled as usize).min(matching - 1);
-        let lobe = self.matching(flags).nth(chosen)?;
+        let (lobe, kind) = self.matching(flags).nth(chosen)?;
         let u = Vec2::new((scaled - chosen as f32).min(ONE_MINUS_EPSILON), u.y);
         let mut sample = lobe.sample_f(local_wo, u)?;
         let local_wi = sample.wi;
         sample.wi = self.frame.to_world(local_wi);
-        let specular = sample.flags.contains(BxdfFlags::SPECULAR);
+        let specular = kind.contains(BxdfFlags::SPECULAR);
         sample.pdf = if specular {
             sample.pdf / matching as f32
         } else {
-            self.mean_pdf(local_wo, local_wi, flags, matching)
+            self.mean_pdf(local_wo, local_wi, flags)
         };
         if !sample.wi.is_finite() {
             self.reject();
@@ -143,12 +142,11 @@ impl<'a> Bsdf<'a> {
     /// lobes of the kinds in `flags`.
     #[inline]
     pub fn pdf(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> f32 {
-        let matching = self.num_components(flags);
         let local_wo = self.frame.to_local(wo);
-        if matching == 0 || local_wo.z == 0.0 {
+        if local_wo.z == 0.0 {
             return 0.0;
         }
-        self.guarded_pdf(self.mean_pdf(local_wo, self.frame.to_local(wi), flags, matching))
+        self.guarded_pdf(self.mean_pdf(local_wo, self.frame.to_local(wi), flags))
     }
 
     /// The share of a uniform light that leaves along the world direction `wo`: see [`BxDF::rho_hd`].
@@ -157,12 +155,12 @@ impl<'a> Bsdf<'a> {
         if wo.z == 0.0 {
             return Spectrum::BLACK;
         }
-        self.guarded(self.matching(flags).map(|lobe| lobe.rho_hd(wo, u)).sum())
+        self.guarded(self.matching(flags).map(|(lobe, _)| lobe.rho_hd(wo, u)).sum())
     }
 
     /// The share of a uniform light that leaves at all: see [`BxDF::rho_hh`].
     pub fn rho_hh(&self, u1: &[Vec2], u2: &[Vec2], flags: BxdfFlags) -> Spectrum {
-        self.guarded(self.matching(flags).map(|lobe| lobe.rho_hh(u1, u2)).sum())
+        self.guarded(self.matching(flags).map(|(lobe, _)| lobe.rho_hh(u1, u2)).sum())
     }
 
     /// Reflection or transmission, by the geometric normal.
@@ -177,18 +175,32 @@ impl<'a> Bsdf<'a> {
 
     #[inline]
     fn sum(&self, wo: Vec3, wi: Vec3, side: BxdfFlags, flags: BxdfFlags) -> Spectrum {
-        let of_side = |lobe: &&Lobe| lobe.flags().intersects(side);
-        self.matching(flags).filter(of_side).map(|lobe| lobe.f(wo, wi)).sum()
+        let mut f = Spectrum::BLACK;
+        for (lobe, kind) in self.matching(flags) {
+            if kind.intersects(side) {
+                f += lobe.f(wo, wi);
+            }
+        }
+        f
     }
 
     #[inline]
-    fn mean_pdf(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags, matching: usize) -> f32 {
-        self.matching(flags).map(|lobe| lobe.pdf(wo, wi)).sum::<f32>() / matching as f32
+    fn mean_pdf(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> f32 {
+        let (mut sum, mut count) = (0.0, 0);
+        for (lobe, _) in self.matching(flags) {
+            sum += lobe.pdf(wo, wi);
+            count += 1;
+        }
+        if count > 1 { sum / count as f32 } else { sum }
     }
 
+    /// The lobes of the kinds in `flags`, each with its kind.
     #[inline]
-    fn matching(&self, flags: BxdfFlags) -> impl Iterator<Item = &Lobe<'a>> {
-        self.lobes[..self.count].iter().flatten().filter(move |lobe| lobe.matches(flags))
+    fn matching(&self, flags: BxdfFlags) -> impl Iterator<Item = (&Lobe<'a>, BxdfFlags)> {
+        self.lobes
+            .iter()
+            .map(|(lobe, kind)| (lobe, *kind))
+            .filter(move |&(_, kind)| flags.contains(kind))
     }
 
     #[inline]

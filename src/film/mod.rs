@@ -1,9 +1,18 @@
 //! The film: what a render leaves behind, and how it is written to files.
 
 mod display;
+mod exr;
+mod output;
 mod picture;
+mod png;
 mod sums;
 
 pub use display::Display;
+pub use exr::write_exr;
+pub use output::{OutputError, check_writable};
 pub use picture::{Layers, Metadata, Picture, Window};
+pub use png::write_png;
 pub use sums::{Film, FilmError};
+
+/// The name that files give for their maker.
+const SOFTWARE: &str = concat!("lobe ", env!("CARGO_PKG_VERSION"));

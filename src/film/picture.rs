@@ -55,6 +55,38 @@ pub struct Picture {
     pub layers: Option<Layers>,
 }
 
+impl Picture {
+    /// Whether a file can hold it: the window lies in the image, and every list has one value for
+    /// each of the window's pixels. If not, a clause that says what is wrong.
+    pub(super) fn check(&self) -> Result<(), String> {
+        // OpenEXR keeps windows as signed numbers of 32 bits, and uses half their range.
+        const LARGEST: u32 = i32::MAX as u32 / 2 - 1;
+        let Self { resolution, window, .. } = self;
+        if resolution.max_element() > LARGEST {
+            return Err(format!("a file's sides hold at most {LARGEST} pixels"));
+        }
+        if window.max.cmpgt(*resolution).any() {
+            return Err("its window reaches beyond the image".to_owned());
+        }
+        if window.min.cmpge(window.max).any() {
+            return Err("its window holds no pixel".to_owned());
+        }
+        let mut counts = vec![("colour", self.color.len())];
+        if let Some(Layers { normal, depth, albedo }) = &self.layers {
+            counts.push(("normal", normal.len()));
+            counts.push(("depth", depth.len()));
+            counts.push(("albedo", albedo.len()));
+        }
+        let area = window.area();
+        match counts.into_iter().find(|&(_, count)| count != area) {
+            Some((name, count)) => {
+                Err(format!("its window has {area} pixels, but {count} values of {name}"))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
 /// How a picture came about: written into the files as attributes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Metadata {

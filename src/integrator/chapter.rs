@@ -26,7 +26,11 @@ const BRIGHTNESS: f32 = 3.0;
 impl Integrator for ChapterIntegrator {
     fn shade(&self, scene: &Scene, wave: &mut Wave) {
         for ((ray, hit), radiance) in wave.rays.iter().zip(&wave.hits).zip(&mut wave.radiance) {
-            let Some((mut si, material)) = scene.interaction(ray, hit) else { continue };
+            if !hit.is_hit() {
+                continue;
+            }
+            let mut si = scene.interaction(ray, hit);
+            let material = scene.material(hit);
             let bsdf =
                 material.compute_scattering(&mut si, &wave.arena, TransportMode::Radiance, true);
             for light in scene.lights() {

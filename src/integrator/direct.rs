@@ -14,7 +14,11 @@ pub struct DirectIntegrator;
 impl Integrator for DirectIntegrator {
     fn shade(&self, scene: &Scene, wave: &mut Wave) {
         for (sample, (ray, hit)) in wave.rays.iter().zip(&wave.hits).enumerate() {
-            let Some((mut si, material)) = scene.interaction(ray, hit) else { continue };
+            if !hit.is_hit() {
+                continue;
+            }
+            let mut si = scene.interaction(ray, hit);
+            let material = scene.material(hit);
             let bsdf =
                 material.compute_scattering(&mut si, &wave.arena, TransportMode::Radiance, true);
             for light in scene.lights() {

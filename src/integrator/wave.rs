@@ -61,6 +61,18 @@ pub struct Wave {
 }
 
 impl Wave {
+    /// A wave with room for `samples` samples, and for a ray from each to each of `lights` lights.
+    pub fn with_capacity(samples: usize, lights: usize) -> Self {
+        Self {
+            ids: Vec::with_capacity(samples),
+            rays: Vec::with_capacity(samples),
+            hits: Vec::with_capacity(samples),
+            radiance: Vec::with_capacity(samples),
+            shadow: ShadowRays::with_capacity(samples * lights),
+            ..Self::default()
+        }
+    }
+
     /// Starts anew with the camera rays of these samples, and finds what they hit.
     pub fn begin(
         &mut self,
@@ -94,6 +106,14 @@ pub struct ShadowRays {
 }
 
 impl ShadowRays {
+    fn with_capacity(rays: usize) -> Self {
+        Self {
+            rays: Vec::with_capacity(rays),
+            carried: Vec::with_capacity(rays),
+            occluded: Vec::with_capacity(rays),
+        }
+    }
+
     /// Adds a ray for the sample with this number in the wave.
     #[inline]
     pub fn push(&mut self, sample: usize, ray: Ray, radiance: Spectrum) {

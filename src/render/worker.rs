@@ -38,7 +38,14 @@ impl<'a> Worker<'a> {
         let size = film.window().size().min(UVec2::splat(options.tile_size.max(1)));
         let largest = Window { min: UVec2::ZERO, max: size };
         let tile = Film::new(film.resolution, largest, options.layers)?;
-        Ok(Self { scene, integrator, sampler, wave: Wave::default(), tile, rho_points: lattice() })
+        Ok(Self {
+            scene,
+            integrator,
+            sampler,
+            wave: Wave::with_capacity(WAVE, scene.lights().len()),
+            tile,
+            rho_points: lattice(),
+        })
     }
 
     /// Renders one tile, wave by wave. The samples of a pixel are added in the order of their index, so
@@ -79,7 +86,11 @@ impl<'a> Worker<'a> {
     fn add_first_hits(&mut self) {
         let wave = &mut self.wave;
         for ((id, ray), hit) in wave.ids.iter().zip(&wave.rays).zip(&wave.hits) {
-            let Some((mut si, material)) = self.scene.interaction(ray, hit) else { continue };
+            if !hit.is_hit() {
+                continue;
+            }
+            let mut si = self.scene.interaction(ray, hit);
+            let material = self.scene.material(hit);
             let bsdf =
                 material.compute_scattering(&mut si, &wave.arena, TransportMode::Radiance, true);
             let albedo = bsdf.rho_hd(si.wo(), &self.rho_points, BxdfFlags::all());

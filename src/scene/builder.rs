@@ -19,7 +19,10 @@ pub enum SceneError {
     #[error(transparent)]
     Camera(#[from] CameraError),
     /// The part of the image to render is empty or sticks out.
-    #[error("the film's crop {0:?} is empty or reaches beyond its resolution of {1} x {2}")]
+    #[error(
+        "the film's crop {corners:?} is empty or reaches beyond its resolution of {1} x {2}",
+        corners = [.0.min, .0.max].map(|corner| corner.to_array()).as_flattened()
+    )]
     Crop(Window, u32, u32),
     /// There is nothing to average.
     #[error("the sampler's spp is 0: it has to be at least 1")]
@@ -116,8 +119,12 @@ impl SceneBuilder {
         self
     }
 
-    /// Checks the scene and builds its tree.
-    pub fn build(self) -> Result<Scene, SceneError> {
+    /// Checks camera, film and sampler, which can be done before there are meshes.
+    pub fn check(&self) -> Result<(), SceneError> {
+        self.checked_camera().map(drop)
+    }
+
+    fn checked_camera(&self) -> Result<Camera, SceneError> {
         let FilmSettings { resolution, .. } = self.film;
         let camera = Camera::new(&self.camera, resolution)?;
         let window = self.film.window();
@@ -127,6 +134,12 @@ impl SceneBuilder {
         if self.sampler.spp == 0 {
             return Err(SceneError::NoSamples);
         }
+        Ok(camera)
+    }
+
+    /// Checks the scene and builds its tree.
+    pub fn build(self) -> Result<Scene, SceneError> {
+        let camera = self.checked_camera()?;
         let mut shapes = Vec::with_capacity(self.shapes.len());
         let mut meshes = Vec::with_capacity(self.shapes.len());
         for (name, mesh, material) in self.shapes {
@@ -141,6 +154,7 @@ impl SceneBuilder {
         let accel = Accel::build(&meshes);
         Ok(Scene {
             camera,
+            camera_settings: self.camera,
             film: self.film,
             sampler: self.sampler,
             integrator: self.integrator,

@@ -1,22 +1,25 @@
 //! Scenes: what there is to be rendered, and how.
 
 mod builder;
+mod file;
 mod settings;
 
 use std::sync::Arc;
 
 pub use builder::{SceneBuilder, SceneError};
+pub use file::{LoadReport, LoadedScene, Place, Problem, SceneFileError, parse_scene, read_scene};
 pub use settings::{Display, FilmSettings, IntegratorSettings, SamplerKind, SamplerSettings};
 
 use crate::accel::{Accel, Hit};
-use crate::camera::Camera;
+use crate::camera::{Camera, CameraSettings};
 use crate::geometry::Ray;
 use crate::interaction::SurfaceInteraction;
 use crate::light::Light;
 use crate::material::Material;
 use crate::shape::TriangleMesh;
 
-/// A checked scene, ready to be rendered. It is made by [`Scene::builder`] or read from a file.
+/// A checked scene, ready to be rendered. It is made by [`Scene::builder`], or read from a file by
+/// [`read_scene`].
 ///
 /// ```
 /// use lobe::glam::Vec3;
@@ -41,6 +44,7 @@ use crate::shape::TriangleMesh;
 /// ```
 pub struct Scene {
     camera: Camera,
+    camera_settings: CameraSettings,
     film: FilmSettings,
     sampler: SamplerSettings,
     integrator: IntegratorSettings,
@@ -66,6 +70,11 @@ impl Scene {
     /// The camera.
     pub fn camera(&self) -> &Camera {
         &self.camera
+    }
+
+    /// The camera's settings.
+    pub fn camera_settings(&self) -> &CameraSettings {
+        &self.camera_settings
     }
 
     /// The film's settings.
@@ -108,16 +117,22 @@ impl Scene {
         self.build_seconds
     }
 
-    /// What is known about a hit of `ray`, and the material there. `None` for a miss.
+    /// What is known about a hit of `ray`.
+    ///
+    /// # Panics
+    /// If `hit` is none of this scene's: a miss, or one from elsewhere.
     #[inline]
-    pub fn interaction(
-        &self,
-        ray: &Ray,
-        hit: &Hit,
-    ) -> Option<(SurfaceInteraction<'_>, &dyn Material)> {
-        let shape = self.shapes.get(hit.shape as usize)?;
+    pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction<'_> {
         let mesh = &self.meshes[hit.shape as usize];
-        let si = SurfaceInteraction::on_triangle(mesh, hit.triangle as usize, hit.b, -ray.d);
-        Some((si, &*shape.material))
+        SurfaceInteraction::on_triangle(mesh, hit.triangle as usize, hit.b, -ray.d)
+    }
+
+    /// What the surface is made of at a hit.
+    ///
+    /// # Panics
+    /// Like [`Scene::interaction`].
+    #[inline]
+    pub fn material(&self, hit: &Hit) -> &dyn Material {
+        &*self.shapes[hit.shape as usize].material
     }
 }

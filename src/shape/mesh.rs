@@ -2,7 +2,7 @@
 
 use glam::{Affine3A, Vec2, Vec3};
 
-use super::triangle;
+use super::triangle_normal;
 use crate::geometry::Frame;
 use crate::geometry::float::gamma;
 
@@ -38,7 +38,7 @@ impl TriangleMesh {
     /// counter-clockwise; zero when the triangle has no area.
     #[inline]
     pub fn geometric_normal(&self, triangle: usize) -> Vec3 {
-        triangle::normal(self.corners(triangle))
+        triangle_normal(self.corners(triangle))
     }
 
     /// The unit normal between those of a triangle's corners, by barycentric weights, when all three

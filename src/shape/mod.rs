@@ -2,8 +2,10 @@
 
 mod check;
 mod mesh;
+mod obj;
 mod triangle;
 
 pub use check::MeshError;
 pub use mesh::TriangleMesh;
-pub use triangle::{ShearedRay, TriangleHit};
+pub use obj::{ObjAttribute, ObjError, ObjMesh, ObjProblem, ObjReport, parse_obj, read_obj};
+pub use triangle::{ShearedRay, TriangleHit, triangle_normal};

@@ -8,7 +8,7 @@ use crate::geometry::float::gamma;
 /// The unit normal of a triangle, on the side from which its corners run counter-clockwise; zero for
 /// a triangle without area.
 #[inline]
-pub fn normal([p0, p1, p2]: [Vec3; 3]) -> Vec3 {
+pub fn triangle_normal([p0, p1, p2]: [Vec3; 3]) -> Vec3 {
     let n = (p1 - p0).cross(p2 - p0);
     let length2 = n.length_squared();
     // The square of a very small or large product leaves the range of f32 or loses digits in it.

@@ -1,1 +1,51 @@
-fn main() {}
+//! The command `lobe`: renders scene files, and tells what is in them.
+
+mod info;
+mod output;
+mod progress;
+mod render;
+mod scene;
+mod summary;
+
+use std::error::Error;
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+const EXAMPLES: &str = "\
+Examples:
+  lobe render assets/chapter8.toml                      writes chapter8.png and chapter8.exr
+  lobe render scene.toml -o a.png --spp 256 --set camera.fov=40
+  lobe info scene.toml                                  triangles, bounds, tree, memory
+
+`lobe help render` and `lobe help info` have more of them.";
+
+/// Renders scenes of triangle meshes with PBRT's materials and reflection.
+#[derive(Parser)]
+#[command(version, after_help = EXAMPLES)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Render(render::Arguments),
+    Info(info::Arguments),
+}
+
+fn main() -> ExitCode {
+    let result: Result<(), Box<dyn Error>> = match Arguments::parse().command {
+        Command::Render(arguments) => render::run(&arguments),
+        Command::Info(arguments) => info::run(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            // If nobody listens, the exit code still tells.
+            let _ = writeln!(std::io::stderr(), "error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}

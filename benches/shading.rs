@@ -1,0 +1,214 @@
+//! What shading costs, in nanoseconds per element: `cargo bench shading`.
+//!
+//! - `shading/lobe/*`: one question to the Bsdf of a hit.
+//! - `shading/storage/*`: a Bsdf built and asked for f and pdf, for each way to hold its lobes.
+//! - `shading/texture/*`: a constant read in place, and behind a pointer.
+//! - `shading/hit/*`: all that the chapter's estimator does with a hit, through the traits and as
+//!   arithmetic written by hand.
+//!
+//! All run over one fixed pool of hits.
+
+use std::f32::consts::{FRAC_1_PI, PI};
+use std::hint::black_box;
+use std::sync::Arc;
+
+use bumpalo::Bump;
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use lobe::accel::Hit;
+use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, LambertianReflection, OrenNayar, TransportMode};
+use lobe::geometry::{Frame, Ray};
+use lobe::glam::{Vec2, Vec3};
+use lobe::interaction::SurfaceInteraction;
+use lobe::material::Material;
+use lobe::sampling::{uniform_hemisphere, uniform_triangle};
+use lobe::texture::{ConstantTexture, TextureHandle};
+use lobe::{MatteMaterial, PointLight, Scene, Spectrum, TriangleMesh};
+use smallbox::SmallBox;
+use smallbox::space::S4;
+
+/// Few enough to stay in the first-level cache, so that computing is measured and not waiting.
+const POOL: usize = 256;
+const RED: Spectrum = Spectrum::new(0.8, 0.1, 0.2);
+const LIGHT: Vec3 = Vec3::new(10.0, 10.0, -10.0);
+
+/// A hit with directions that are above its surface.
+struct Sample {
+    ray: Ray,
+    hit: Hit,
+    frame: Frame,
+    wo: Vec3,
+    wi: Vec3,
+    u: Vec2,
+}
+
+/// Hits on a tent of two triangles, at points and from directions that a lattice spreads out.
+fn pool(mesh: &TriangleMesh) -> Vec<Sample> {
+    let lattice = |i: usize, step: f32| (i as f32 * step).fract();
+    (0..POOL)
+        .map(|i| {
+            let u = Vec2::new((i as f32 + 0.5) / POOL as f32, lattice(i, 0.618_034));
+            let v = Vec2::new(lattice(i, 0.754_878), lattice(i, 0.569_840));
+            let triangle = i % 2;
+            let frame = Frame::from_normal(mesh.geometric_normal(triangle));
+            let [wo, wi] = [u, v].map(|u| frame.to_world(uniform_hemisphere::sample(u)));
+            let b = uniform_triangle::sample(v);
+            let hit =
+                Hit { t: 1.0, b: [b.x, b.y, 1.0 - b.x - b.y], shape: 0, triangle: triangle as u32 };
+            Sample { ray: Ray::new(wo, -wo), hit, frame, wo, wi, u }
+        })
+        .collect()
+}
+
+fn tent() -> TriangleMesh {
+    TriangleMesh {
+        positions: vec![Vec3::ZERO, Vec3::new(2.0, 0.3, 0.0), Vec3::new(0.0, 0.1, 2.0), Vec3::ONE],
+        indices: vec![[0, 2, 1], [1, 2, 3]],
+        ..TriangleMesh::default()
+    }
+}
+
+/// Runs `each` over the pool and reports the time for one element.
+fn measure<R>(
+    group: &mut BenchmarkGroup<WallTime>,
+    name: &str,
+    pool: &[Sample],
+    mut each: impl FnMut(&Sample) -> R,
+) {
+    group.throughput(Throughput::Elements(pool.len() as u64));
+    group.bench_function(name, |bencher| {
+        bencher.iter(|| {
+            for sample in pool {
+                black_box(each(black_box(sample)));
+            }
+        });
+    });
+}
+
+fn bsdf(sample: &Sample, lobe: impl Into<lobe::bxdf::Lobe<'static>>) -> Bsdf<'static> {
+    let mut bsdf = Bsdf::new(sample.frame, sample.frame.n, 1.0);
+    bsdf.add(lobe);
+    bsdf
+}
+
+fn lobes(criterion: &mut Criterion) {
+    let pool = pool(&tent());
+    let mut group = criterion.benchmark_group("shading/lobe");
+    let all = BxdfFlags::all();
+    let lambertian = bsdf(&pool[0], LambertianReflection::new(RED));
+    measure(&mut group, "f lambertian", &pool, |s| lambertian.f(s.wo, s.wi, all));
+    measure(&mut group, "pdf lambertian", &pool, |s| lambertian.pdf(s.wo, s.wi, all));
+    measure(&mut group, "sample_f lambertian", &pool, |s| lambertian.sample_f(s.wo, s.u, all));
+    let oren_nayar = bsdf(&pool[0], OrenNayar::new(RED, 20.0));
+    measure(&mut group, "f oren-nayar", &pool, |s| oren_nayar.f(s.wo, s.wi, all));
+    measure(&mut group, "sample_f oren-nayar", &pool, |s| oren_nayar.sample_f(s.wo, s.u, all));
+    measure(&mut group, "f by hand", &pool, |s| f_by_hand(&pool[0].frame, s));
+    measure(&mut group, "pdf by hand", &pool, |s| {
+        let n = pool[0].frame.n;
+        if s.wo.dot(n) * s.wi.dot(n) > 0.0 { s.wi.dot(n).abs() * FRAC_1_PI } else { 0.0 }
+    });
+}
+
+/// Lambert's law with nothing around it.
+fn f_by_hand(frame: &Frame, s: &Sample) -> Spectrum {
+    if s.wo.dot(frame.n) * s.wi.dot(frame.n) > 0.0 { RED * FRAC_1_PI } else { Spectrum::BLACK }
+}
+
+/// f and pdf of a list of lobes that is held in some other way than [`Bsdf`] holds it.
+fn ask<'a>(s: &Sample, lobes: impl Iterator<Item = &'a dyn BxDF>) -> (Spectrum, f32) {
+    let (wo, wi) = (s.frame.to_local(s.wo), s.frame.to_local(s.wi));
+    lobes
+        .fold((Spectrum::BLACK, 0.0), |(f, pdf), lobe| (f + lobe.f(wo, wi), pdf + lobe.pdf(wo, wi)))
+}
+
+fn storage(criterion: &mut Criterion) {
+    let pool = pool(&tent());
+    let mut group = criterion.benchmark_group("shading/storage");
+    let all = BxdfFlags::all();
+    let f_and_pdf = |bsdf: &Bsdf, s: &Sample| (bsdf.f(s.wo, s.wi, all), bsdf.pdf(s.wo, s.wi, all));
+    measure(&mut group, "enum", &pool, |s| {
+        f_and_pdf(&black_box(bsdf(s, LambertianReflection::new(RED))), s)
+    });
+    let mut arena = Arena::new();
+    measure(&mut group, "arena dyn", &pool, |s| {
+        let answer = {
+            let mut bsdf = Bsdf::new(s.frame, s.frame.n, 1.0);
+            bsdf.add(arena.lobe(LambertianReflection::new(RED)));
+            f_and_pdf(&black_box(bsdf), s)
+        };
+        arena.reset();
+        answer
+    });
+    // The same without Bsdf's guards, so that only the ways to hold a lobe differ.
+    measure(&mut group, "bare enum", &pool, |s| {
+        let lobes = [lobe::bxdf::Lobe::from(LambertianReflection::new(RED))];
+        let lobe = &black_box(lobes)[0];
+        let (wo, wi) = (s.frame.to_local(s.wo), s.frame.to_local(s.wi));
+        (lobe.f(wo, wi), lobe.pdf(wo, wi))
+    });
+    let mut bump = Bump::new();
+    measure(&mut group, "bare arena dyn", &pool, |s| {
+        let lobe: &dyn BxDF = black_box(bump.alloc(LambertianReflection::new(RED)));
+        let answer = ask(s, std::iter::once(lobe));
+        bump.reset();
+        answer
+    });
+    measure(&mut group, "bare inline dyn", &pool, |s| {
+        let lobe: SmallBox<dyn BxDF, S4> = smallbox::smallbox!(LambertianReflection::new(RED));
+        ask(s, std::iter::once(&*black_box(lobe)))
+    });
+    measure(&mut group, "bare boxed dyn", &pool, |s| {
+        let lobe: Box<dyn BxDF> = Box::new(LambertianReflection::new(RED));
+        ask(s, std::iter::once(&*black_box(lobe)))
+    });
+}
+
+fn textures(criterion: &mut Criterion) {
+    let mesh = tent();
+    let pool = pool(&mesh);
+    let mut group = criterion.benchmark_group("shading/texture");
+    let interaction = |s: &Sample| SurfaceInteraction::on_triangle(&mesh, 0, s.hit.b, s.wo);
+    let si = interaction(&pool[0]);
+    let constant = TextureHandle::from(RED);
+    measure(&mut group, "constant in place", &pool, |_| black_box(&constant).evaluate(&si));
+    let shared = TextureHandle::from(Arc::new(ConstantTexture::new(RED)));
+    measure(&mut group, "constant behind a pointer", &pool, |_| black_box(&shared).evaluate(&si));
+}
+
+fn hits(criterion: &mut Criterion) {
+    let mesh = tent();
+    let pool = pool(&mesh);
+    let scene = Scene::builder()
+        .material("red", MatteMaterial::new(RED))
+        .shape("tent", mesh.clone(), "red")
+        .light(PointLight::new(LIGHT, Spectrum::WHITE))
+        .build()
+        .expect("the scene is sound");
+    let mut group = criterion.benchmark_group("shading/hit");
+    let arena = Arena::new();
+    let all = BxdfFlags::all();
+    let mode = TransportMode::Radiance;
+    measure(&mut group, "interaction", &pool, |s| scene.interaction(&s.ray, &s.hit));
+    let matte = MatteMaterial::new(RED);
+    let si = SurfaceInteraction::on_triangle(&mesh, 0, pool[0].hit.b, pool[0].wo);
+    measure(&mut group, "bsdf of a matte hit", &pool, |_| {
+        matte.compute_scattering(&mut black_box(si.clone()), &arena, mode, true)
+    });
+    measure(&mut group, "through the traits", &pool, |s| {
+        let mut si = scene.interaction(&s.ray, &s.hit);
+        let bsdf = scene.material(&s.hit).compute_scattering(&mut si, &arena, mode, true);
+        let light = scene.lights()[0].sample_li(si.p(), s.u).expect("the light is elsewhere");
+        bsdf.f(si.wo(), light.wi, all) * (bsdf.pdf(si.wo(), light.wi, all) * 3.0)
+    });
+    measure(&mut group, "by hand", &pool, |s| {
+        let [p0, p1, p2] = mesh.corners(s.hit.triangle as usize);
+        let p = s.hit.b[0] * p0 + s.hit.b[1] * p1 + s.hit.b[2] * p2;
+        let n = (p1 - p0).cross(p2 - p0).normalize();
+        let wi = (LIGHT - p).normalize();
+        let (cos_o, cos_i) = (-s.ray.d.dot(n), wi.dot(n));
+        if cos_o * cos_i > 0.0 { RED * (3.0 * cos_i.abs() / (PI * PI)) } else { Spectrum::BLACK }
+    });
+}
+
+criterion_group!(benches, lobes, storage, textures, hits);
+criterion_main!(benches);

@@ -1,0 +1,10 @@
+//! Any text as a scene file: an error of one line that names the place, or a scene.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| {
+    if let Err(error) = lobe::scene::parse_scene("fuzz.toml".as_ref(), text, &[]) {
+        assert!(error.to_string().starts_with("fuzz.toml"));
+    }
+});

@@ -1,0 +1,96 @@
+//! `lobe info`: what is in a scene file.
+
+use std::error::Error;
+
+use clap::Args;
+use lobe::scene::{Display, IntegratorSettings, LoadedScene, SamplerKind, SamplerSettings, Scene};
+use lobe::{CameraSettings, TriangleMesh};
+
+use crate::scene::SceneArguments;
+use crate::summary::Summary;
+
+const EXAMPLES: &str = "\
+Examples:
+  lobe info chapter8.toml
+  lobe info chapter8.toml --set shape.dragon.scale=2    how large it would be then
+  lobe info chapter8.toml | awk '$1 == \"triangles\" { print $2 }'";
+
+/// Tells what is in a scene file: settings, triangles, bounds, tree, memory
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+}
+
+pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    let LoadedScene { scene, report } = arguments.scene.load()?;
+    let mut summary = Summary::default();
+    summary.add("scene", arguments.scene.path.display());
+    add_settings(&mut summary, &scene);
+    for ((name, mesh), odd) in scene.shapes().zip(&report.meshes) {
+        let mut line = format!("{name}: {} triangles", mesh.indices.len());
+        if odd.degenerate_triangles > 0 {
+            line += &format!(", {} of them without area", odd.degenerate_triangles);
+        }
+        if odd.unused_vertices > 0 {
+            line += &format!(", {} unused vertices", odd.unused_vertices);
+        }
+        summary.add("shape", line);
+    }
+    summary.add_meshes(&scene, &report);
+    let accel = scene.accel();
+    if !accel.bounds().is_empty() {
+        summary.add("bounds", format!("{} to {}", accel.bounds().min, accel.bounds().max));
+    }
+    summary.add("nodes", accel.node_count());
+    summary.add("depth", format!("{} nodes", accel.depth()));
+    let meshes: usize = scene.shapes().map(|(_, mesh)| memory(mesh)).sum();
+    summary.add("tree-memory", format!("{:.2} MiB", accel.memory() as f64 / MIB));
+    summary.add("mesh-memory", format!("{:.2} MiB", meshes as f64 / MIB));
+    summary.add("load", format!("{:.3} s", report.seconds));
+    summary.add("build", format!("{:.3} s", scene.build_seconds()));
+    summary.print()?;
+    Ok(())
+}
+
+const MIB: f64 = (1 << 20) as f64;
+
+/// What a mesh takes, in bytes.
+fn memory(mesh: &TriangleMesh) -> usize {
+    let TriangleMesh { positions, normals, uvs, indices } = mesh;
+    size_of_val(&positions[..])
+        + size_of_val(&normals[..])
+        + size_of_val(&uvs[..])
+        + size_of_val(&indices[..])
+}
+
+/// A line each for camera, film, sampler, integrator and lights.
+fn add_settings(summary: &mut Summary, scene: &Scene) {
+    let CameraSettings { eye, look_at, up: _, fov, lens_radius, focal_distance } =
+        scene.camera_settings();
+    let lens = match scene.camera().has_lens() {
+        true => format!("lens radius {lens_radius}, in focus at {focal_distance}"),
+        false => "pinhole".into(),
+    };
+    summary.add("camera", format!("{eye} to {look_at}, {fov} degrees, {lens}"));
+    summary.add_film(scene.film());
+    let display = match scene.film().display {
+        Display::Srgb => "srgb",
+        Display::Exposure => "exposure",
+    };
+    summary.add("display", display);
+    let SamplerSettings { kind, spp, seed } = scene.sampler();
+    let kind = match kind {
+        SamplerKind::Independent => "independent",
+        SamplerKind::Stratified => "stratified",
+    };
+    summary.add("sampler", format!("{kind}, {spp} samples per pixel, seed {seed}"));
+    let integrator = match scene.integrator() {
+        IntegratorSettings::Chapter { highlight: false } => "chapter",
+        IntegratorSettings::Chapter { highlight: true } => "chapter with highlight",
+        IntegratorSettings::Direct => "direct",
+    };
+    summary.add("integrator", integrator);
+    summary.add("lights", scene.lights().len());
+}

@@ -1,0 +1,43 @@
+//! [`Bar`]: how far a render is, on a terminal.
+
+use std::fmt::Write;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use lobe::render::Progress;
+
+const TEMPLATE: &str = "{bar:32} {percent:>3} %  {rate}  {eta} left";
+
+/// A bar on stderr; nothing at all where that is no terminal.
+pub struct Bar {
+    bar: ProgressBar,
+    rays: Arc<AtomicU64>,
+}
+
+impl Bar {
+    /// A bar for so many pixels.
+    pub fn new(pixels: u64) -> Self {
+        let rays = Arc::new(AtomicU64::new(0));
+        let counted = Arc::clone(&rays);
+        let rate = move |state: &ProgressState, to: &mut dyn Write| {
+            let rays = counted.load(Ordering::Relaxed) as f64;
+            let _ = write!(to, "{:.2} Mrays/s", rays / state.elapsed().as_secs_f64() / 1e6);
+        };
+        let style = ProgressStyle::with_template(TEMPLATE)
+            .unwrap_or_else(|_| ProgressStyle::default_bar())
+            .with_key("rate", rate);
+        Self { bar: ProgressBar::new(pixels).with_style(style), rays }
+    }
+
+    /// Moves on. The bar itself sees to it that it is not drawn too often.
+    pub fn update(&self, progress: Progress) {
+        self.rays.store(progress.rays, Ordering::Relaxed);
+        self.bar.set_position(progress.pixels);
+    }
+
+    /// Leaves the terminal as it was.
+    pub fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+}

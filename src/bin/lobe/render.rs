@@ -1,0 +1,111 @@
+//! `lobe render`: from a scene file to PNG and EXR.
+
+use std::error::Error;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::Args;
+use clap::value_parser;
+use lobe::film::Metadata;
+use lobe::render::Progress;
+use lobe::scene::{LoadedScene, SamplerSettings};
+use lobe::{RenderOptions, render};
+
+use crate::output::{Format, Output};
+use crate::progress::Bar;
+use crate::scene::SceneArguments;
+use crate::summary::Summary;
+
+const EXAMPLES: &str = r#"Examples:
+  lobe render chapter8.toml                             writes chapter8.png and chapter8.exr here
+  lobe render chapter8.toml -o a.png --spp 256          writes a.png alone, with less noise
+  lobe render chapter8.toml --set film.resolution=[100,100] --set camera.fov=40
+  lobe render chapter8.toml --set 'shape.dragon.obj="other.obj"'    text keeps its quotes
+
+A PNG is for the eye. An EXR holds linear radiance, and normal, depth and albedo of what is seen."#;
+
+/// Renders a scene file to PNG and EXR
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+
+    /// A file to write, .png or .exr; may be repeated [default: both, named after the scene]
+    #[arg(short, long, value_name = "FILE")]
+    output: Vec<PathBuf>,
+
+    /// Samples per pixel, in place of the scene's
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
+    spp: Option<u32>,
+
+    /// Seed of the samples, in place of the scene's
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+
+    /// How many threads [default: all that the machine has]; the picture does not depend on it
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+
+    /// Prints nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    let outputs = Output::all(&arguments.output, &arguments.scene.path)?;
+    let LoadedScene { mut scene, report } = arguments.scene.load()?;
+    let SamplerSettings { kind, spp, seed } = *scene.sampler();
+    let (spp, seed) = (arguments.spp.unwrap_or(spp), arguments.seed.unwrap_or(seed));
+    scene.set_sampler(SamplerSettings { kind, spp, seed });
+
+    let bar = (!arguments.quiet).then(|| Bar::new(scene.film().window().area() as u64));
+    let progress = |progress: Progress| bar.iter().for_each(|bar| bar.update(progress));
+    let threads = arguments.threads.or_else(|| std::thread::available_parallelism().ok());
+    let options = RenderOptions {
+        threads,
+        layers: outputs.iter().any(|output| output.format == Format::Exr),
+        progress: Some(&progress),
+        ..RenderOptions::default()
+    };
+    let rendered = render(&scene, &options);
+    bar.iter().for_each(Bar::clear);
+    let rendered = rendered?;
+
+    let start = Instant::now();
+    let metadata = Metadata {
+        scene: arguments.scene.path.display().to_string(),
+        seed,
+        samples_per_pixel: spp,
+        seconds: rendered.seconds,
+    };
+    for output in &outputs {
+        output.write(&rendered.picture, scene.film().display, &metadata)?;
+    }
+    if !arguments.quiet {
+        let write_seconds = start.elapsed().as_secs_f64();
+        let mut summary = Summary::default();
+        summary.add("scene", &metadata.scene);
+        summary.add_film(scene.film());
+        summary.add("samples", format!("{spp} per pixel"));
+        summary.add_meshes(&scene, &report);
+        summary.add("threads", threads.map_or(1, NonZeroUsize::get));
+        summary.add("load", format!("{:.3} s", report.seconds));
+        summary.add("build", format!("{:.3} s", scene.build_seconds()));
+        summary.add("render", format!("{:.3} s", rendered.seconds));
+        summary.add("write", format!("{write_seconds:.3} s"));
+        let rays = rendered.counters.rays();
+        summary.add("rays", rays);
+        summary.add("speed", format!("{:.2} Mrays/s", rays as f64 / rendered.seconds / 1e6));
+        summary.add("non-finite", format!("{} samples", rendered.non_finite));
+        if rendered.counters.rejected > 0 {
+            summary.add("rejected", format!("{} lobe values", rendered.counters.rejected));
+        }
+        for output in &outputs {
+            summary.add("wrote", output.path.display());
+        }
+        summary.print()?;
+    }
+    Ok(())
+}

@@ -1,0 +1,24 @@
+//! The arguments that say which scene, shared by all subcommands.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use lobe::scene::{LoadedScene, SceneFileError, read_scene};
+
+#[derive(Args)]
+pub struct SceneArguments {
+    /// The scene file
+    #[arg(value_name = "SCENE")]
+    pub path: PathBuf,
+
+    /// Sets a value of the scene, in TOML, whether the file has it or not; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+impl SceneArguments {
+    pub fn load(&self) -> Result<LoadedScene, SceneFileError> {
+        let overrides: Vec<&str> = self.set.iter().map(String::as_str).collect();
+        read_scene(&self.path, &overrides)
+    }
+}

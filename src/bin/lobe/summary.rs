@@ -1,0 +1,50 @@
+//! [`Summary`]: what a command has to tell, in lines of a key and a value.
+
+use std::fmt::Display;
+use std::io::{self, Write};
+
+use lobe::film::Window;
+use lobe::scene::{FilmSettings, LoadReport, Scene};
+
+/// Lines for people and programs alike: a key without blanks, then the value, then its unit if it
+/// has one. Keys may come more than once.
+#[derive(Default)]
+pub struct Summary(Vec<(&'static str, String)>);
+
+impl Summary {
+    /// Adds a line.
+    pub fn add(&mut self, key: &'static str, value: impl Display) {
+        self.0.push((key, value.to_string()));
+    }
+
+    /// Adds the size of the image, and of the part of it that is rendered.
+    pub fn add_film(&mut self, film: &FilmSettings) {
+        self.add("image", format!("{}x{} pixels", film.resolution.x, film.resolution.y));
+        if let Some(Window { min, max }) = film.crop {
+            self.add("crop", format!("[{}, {}, {}, {}]", min.x, min.y, max.x, max.y));
+        }
+    }
+
+    /// Adds the number of triangles, and what is odd about them.
+    pub fn add_meshes(&mut self, scene: &Scene, report: &LoadReport) {
+        self.add("triangles", scene.shapes().map(|(_, mesh)| mesh.indices.len()).sum::<usize>());
+        let degenerate = report.meshes.iter().map(|mesh| mesh.degenerate_triangles).sum::<usize>();
+        if degenerate > 0 {
+            self.add("degenerate", format!("{degenerate} triangles without area, left out"));
+        }
+    }
+
+    /// Prints all lines, with the values in one column. A reader that has gone away wants no more of
+    /// them, and that is no error.
+    pub fn print(&self) -> io::Result<()> {
+        let width = self.0.iter().map(|(key, _)| key.len()).max().unwrap_or(0);
+        let lines = self.0.iter().map(|(key, value)| format!("{key:width$}  {value}\n"));
+        let mut stdout = io::stdout().lock();
+        let printed =
+            stdout.write_all(lines.collect::<String>().as_bytes()).and_then(|()| stdout.flush());
+        printed.or_else(|error| match error.kind() {
+            io::ErrorKind::BrokenPipe => Ok(()),
+            _ => Err(io::Error::new(error.kind(), format!("cannot print the summary: {error}"))),
+        })
+    }
+}

@@ -1,0 +1,160 @@
+//! OpenEXR files: linear radiance as it is, with layers and attributes.
+
+use std::io::{Cursor, Write};
+use std::path::Path;
+
+use exr::meta::attribute::Chromaticities;
+use exr::prelude::{
+    AnyChannel, AnyChannels, AttributeValue, Blocks, Compression, Encoding, FlatSamples, Image,
+    ImageAttributes, IntegerBounds, Layer, LayerAttributes, LineOrder, Text, Vec2, WritableImage,
+};
+use glam::UVec2;
+
+use super::output::replace;
+use super::{Metadata, OutputError, Picture};
+
+/// ITU-R BT.709-6, item 1.3 and 1.4: the primaries, and D65 as white.
+const REC_709: Chromaticities = Chromaticities {
+    red: Vec2(0.64, 0.33),
+    green: Vec2(0.30, 0.60),
+    blue: Vec2(0.15, 0.06),
+    white: Vec2(0.3127, 0.3290),
+};
+
+/// Writes a picture as an OpenEXR file of linear `f32`, bit for bit, compressed without loss (ZIP,
+/// line by line).
+///
+/// The file has one part. Channels `R`, `G` and `B` hold the radiance; with
+/// [`Picture::layers`] there are also `normal.X`, `normal.Y`, `normal.Z`, `depth.Z`, `albedo.R`,
+/// `albedo.G` and `albedo.B`. The data window is the picture's window and the display window the whole
+/// image. Attributes:
+///
+/// | name | type | content |
+/// |---|---|---|
+/// | `chromaticities` | chromaticities | Rec. 709 with D65 |
+/// | `software` | string | `lobe` and its version |
+/// | `scene` | string, UTF-8 | [`Metadata::scene`] |
+/// | `seed` | string, decimal | [`Metadata::seed`]; the format has no integer of 64 bits |
+/// | `samplesPerPixel` | int | [`Metadata::samples_per_pixel`], at most 2³¹ - 1 |
+/// | `renderSeconds` | double | [`Metadata::seconds`] |
+///
+/// The same arguments give the same bytes. A file of the same name is replaced only when the new
+/// one is complete, as [`write_png`](super::write_png) says.
+///
+/// # Errors
+/// When the path cannot be written, or the parts of the picture do not fit each other.
+pub fn write_exr(
+    path: impl AsRef<Path>,
+    picture: &Picture,
+    metadata: &Metadata,
+) -> Result<(), OutputError> {
+    let path = path.as_ref();
+    let bytes = picture
+        .check()
+        .and_then(|()| encode(picture, metadata))
+        .map_err(|reason| OutputError::Picture { path: path.to_owned(), reason })?;
+    replace(path, |file| file.write_all(&bytes))
+}
+
+fn encode(picture: &Picture, metadata: &Metadata) -> Result<Vec<u8>, String> {
+    // Line by line instead of blocks of 16 lines: 40 % less time for files 3 to 10 % larger (500 x 500
+    // pixels with layers: 49 ms and 3.26 MB against 79 ms and 3.16 MB; PIZ 93 ms and 3.48 MB).
+    let encoding = Encoding {
+        compression: Compression::ZIP1,
+        blocks: Blocks::ScanLines,
+        line_order: LineOrder::Increasing,
+    };
+    let layer = Layer::new(
+        usizes(picture.window.size()),
+        layer_attributes(picture, metadata),
+        encoding,
+        channels(picture),
+    );
+    let whole = IntegerBounds::from_dimensions(usizes(picture.resolution));
+    let attributes =
+        ImageAttributes { chromaticities: Some(REC_709), ..ImageAttributes::new(whole) };
+
+    let mut file = Cursor::new(Vec::new());
+    Image::empty(attributes)
+        .with_layer(layer)
+        .write()
+        .non_parallel()
+        .to_buffered(&mut file)
+        .map_err(|error| error.to_string())?;
+    let mut bytes = file.into_inner();
+    sort_attributes(&mut bytes).ok_or("the header cannot be read back")?;
+    Ok(bytes)
+}
+
+fn usizes(size: UVec2) -> Vec2<usize> {
+    Vec2(size.x as usize, size.y as usize)
+}
+
+fn layer_attributes(picture: &Picture, metadata: &Metadata) -> LayerAttributes {
+    let text = |text: &str| Text::from_slice_unchecked(text.as_bytes());
+    let samples = i32::try_from(metadata.samples_per_pixel).unwrap_or(i32::MAX);
+    let min = picture.window.min;
+    LayerAttributes {
+        layer_position: Vec2(min.x as i32, min.y as i32),
+        software_name: Some(text(super::SOFTWARE)),
+        other: [
+            (text("scene"), AttributeValue::Text(text(&metadata.scene))),
+            (text("seed"), AttributeValue::Text(text(&metadata.seed.to_string()))),
+            (text("samplesPerPixel"), AttributeValue::I32(samples)),
+            (text("renderSeconds"), AttributeValue::F64(metadata.seconds)),
+        ]
+        .into(),
+        ..LayerAttributes::default()
+    }
+}
+
+/// One part and dotted names: what every reader understands. Plain `R`, `G`, `B` sort first.
+fn channels(picture: &Picture) -> AnyChannels<FlatSamples> {
+    let mut list = Vec::new();
+    push_bands(&mut list, ["R", "G", "B"], &picture.color, |c| c.to_array());
+    if let Some(layers) = &picture.layers {
+        let normal = ["normal.X", "normal.Y", "normal.Z"];
+        push_bands(&mut list, normal, &layers.normal, |n| n.to_array());
+        push_bands(&mut list, ["depth.Z"], &layers.depth, |&z| [z]);
+        let albedo = ["albedo.R", "albedo.G", "albedo.B"];
+        push_bands(&mut list, albedo, &layers.albedo, |a| a.to_array());
+    }
+    AnyChannels::sort(list.into())
+}
+
+fn push_bands<T, const N: usize>(
+    list: &mut Vec<AnyChannel<FlatSamples>>,
+    names: [&str; N],
+    pixels: &[T],
+    bands: impl Fn(&T) -> [f32; N],
+) {
+    for (band, name) in names.into_iter().enumerate() {
+        let samples = pixels.iter().map(|pixel| bands(pixel)[band]).collect();
+        list.push(AnyChannel::new(name, FlatSamples::F32(samples)));
+    }
+}
+
+/// Puts the attributes in the order of their names, as the OpenEXR library itself writes them. The
+/// encoder keeps some of them in a hash map, whose order differs from run to run.
+///
+/// A header is a sequence of attributes behind a magic number and a version (4 bytes each), ended by a
+/// zero byte; an attribute is its name and its type, each with a zero at the end, the size of its
+/// value in 4 bytes, and the value ("OpenEXR File Layout", Structure of a Header).
+fn sort_attributes(file: &mut [u8]) -> Option<()> {
+    const START: usize = 8;
+    let mut attributes = Vec::new();
+    let mut rest = &file[START..];
+    while *rest.first()? != 0 {
+        let name = rest.iter().position(|&byte| byte == 0)?;
+        let kind = rest[name + 1..].iter().position(|&byte| byte == 0)?;
+        let sized = name + 1 + kind + 1;
+        let size = u32::from_le_bytes(rest.get(sized..sized + 4)?.try_into().ok()?);
+        let (attribute, behind) = rest.split_at_checked(sized + 4 + size as usize)?;
+        attributes.push(attribute);
+        rest = behind;
+    }
+    attributes.sort_unstable();
+    let sorted = attributes.concat();
+    file[START..START + sorted.len()].copy_from_slice(&sorted);
+    Some(())
+}

@@ -1,0 +1,136 @@
+//! From a [`Description`] to a scene.
+
+use super::description::{
+    Description, LightDescription, MaterialDescription, ShapeDescription, Source,
+    TextureDescription,
+};
+use super::document::{Document, Fault};
+use super::error::Problem;
+use super::hint::hint;
+use super::section::full_name;
+use crate::camera::CameraError;
+use crate::light::PointLight;
+use crate::material::MatteMaterial;
+use crate::scene::{Scene, SceneError};
+use crate::shape::{ObjReport, read_obj};
+
+/// Looks up all names, reads the meshes and builds the scene. The settings are checked before the
+/// meshes are read, which may take long.
+pub fn build(
+    description: Description,
+    document: &Document,
+) -> Result<(Scene, Vec<ObjReport>), Fault> {
+    let Description { camera, film, sampler, integrator, textures, materials, lights, shapes } =
+        description;
+    let mut builder =
+        Scene::builder().camera(camera).film(film).sampler(sampler).integrator(integrator);
+    for (name, material) in &materials {
+        let textures = Textures { textures: &textures, document, material: name };
+        builder = builder.material(name, textures.material(material)?);
+    }
+    for LightDescription::Point { position, intensity } in lights {
+        builder = builder.light(PointLight::new(position, intensity.into()));
+    }
+    let fault = |error: SceneError| {
+        let mark = document.root.follow(&keys(&error)).mark;
+        Fault { mark, problem: error.into() }
+    };
+    builder.check().map_err(fault)?;
+    for (name, shape) in &shapes {
+        if materials.iter().all(|(known, _)| *known != shape.material) {
+            let known = materials.iter().map(|(known, _)| known.as_str());
+            let problem = unknown("material", &shape.material, known);
+            return Err(document.fault(&["shape", name, "material"], problem));
+        }
+    }
+    let mut reports = Vec::with_capacity(shapes.len());
+    for (name, ShapeDescription { obj, material, transform }) in shapes {
+        let read =
+            read_obj(&obj).map_err(|error| document.fault(&["shape", &name, "obj"], error))?;
+        let mut mesh = read.mesh;
+        mesh.transform(&transform);
+        reports.push(read.report);
+        builder = builder.shape(name, mesh, material);
+    }
+    Ok((builder.build().map_err(fault)?, reports))
+}
+
+/// The key whose value an error is about.
+fn keys(error: &SceneError) -> Vec<&str> {
+    match error {
+        SceneError::Camera(error) => match error {
+            CameraError::NotFinite(key) => vec!["camera", key],
+            CameraError::NoDirection => vec!["camera", "look_at"],
+            CameraError::NoUp => vec!["camera", "up"],
+            CameraError::Fov(_) => vec!["camera", "fov"],
+            CameraError::LensRadius(_) => vec!["camera", "lens_radius"],
+            CameraError::FocalDistance(_) => vec!["camera", "focal_distance"],
+            CameraError::Resolution(..) => vec!["film", "resolution"],
+        },
+        SceneError::Crop(..) => vec!["film", "crop"],
+        SceneError::NoSamples => vec!["sampler", "spp"],
+        SceneError::UnknownMaterial { shape, .. } => vec!["shape", shape, "material"],
+        SceneError::Mesh(shape, _) => vec!["shape", shape],
+    }
+}
+
+fn unknown<'a>(kind: &str, name: &str, known: impl Iterator<Item = &'a str>) -> Problem {
+    Problem::UnknownName { kind: kind.into(), name: name.into(), hint: hint(name, known) }
+}
+
+/// The scene's textures, for one of its materials.
+struct Textures<'a> {
+    textures: &'a [(String, TextureDescription)],
+    document: &'a Document<'a>,
+    material: &'a str,
+}
+
+impl Textures<'_> {
+    fn material(&self, material: &MaterialDescription) -> Result<MatteMaterial, Fault> {
+        let MaterialDescription::Matte { kd, sigma, bump } = material;
+        let color = |texture| match texture {
+            TextureDescription::ConstantColor(c) if c.iter().all(|c| (0.0..=1.0).contains(c)) => {
+                Some(c)
+            }
+            _ => None,
+        };
+        let number = |texture| match texture {
+            TextureDescription::ConstantNumber(x) => Some(x),
+            TextureDescription::ConstantColor(_) => None,
+        };
+        let angle = |texture| number(texture).filter(|angle| (0.0..=90.0).contains(angle));
+
+        let kd = self.value("kd", kd, color, "[red, green, blue], each from 0 to 1")?;
+        let mut matte = MatteMaterial::new(kd);
+        if let Some(sigma) = sigma {
+            matte = matte.with_sigma(self.value("sigma", sigma, angle, "degrees from 0 to 90")?);
+        }
+        if let Some(bump) = bump {
+            matte = matte.with_bump(self.value("bump", bump, number, "a number")?);
+        }
+        Ok(matte)
+    }
+
+    /// The value of a texture, or the one in its place, if `accept` finds it fit for the key.
+    fn value<T>(
+        &self,
+        key: &str,
+        source: &Source,
+        accept: impl Fn(TextureDescription) -> Option<T>,
+        expected: &str,
+    ) -> Result<T, Fault> {
+        let fault = |problem| self.document.fault(&["material", self.material, key], problem);
+        let (texture, found) = match source {
+            Source::Value(value) => (value, value.to_string()),
+            Source::Texture(name) => {
+                let entry = self.textures.iter().find(|(known, _)| known == name);
+                let known = self.textures.iter().map(|(known, _)| known.as_str());
+                let (_, texture) = entry.ok_or_else(|| fault(unknown("texture", name, known)))?;
+                (texture, format!("the texture `{name}`, {texture}"))
+            }
+        };
+        let key = full_name(&full_name("material", self.material), key);
+        let problem = || Problem::Value { key, found, expected: expected.into() };
+        accept(*texture).ok_or_else(|| fault(problem()))
+    }
+}

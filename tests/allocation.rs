@@ -1,0 +1,120 @@
+//! Nothing is allocated while samples are rendered: all memory is taken before the first tile is done.
+
+mod scenes;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::num::NonZeroUsize;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, TransportMode};
+use lobe::glam::{UVec2, Vec3};
+use lobe::interaction::SurfaceInteraction;
+use lobe::material::Material;
+use lobe::scene::{IntegratorSettings, SamplerKind, SamplerSettings};
+use lobe::{PointLight, RenderOptions, Spectrum, render};
+use scenes::ball_over_floor;
+
+/// The system's allocator, counting.
+struct Counting;
+
+static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
+
+// SAFETY: every call is passed on to the system's allocator as it is.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::SeqCst);
+        // SAFETY: as promised to this function.
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: as promised to this function.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::SeqCst);
+        // SAFETY: as promised to this function.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static COUNTING: Counting = Counting;
+
+/// A lobe that is none of the crate's, so it has to be kept in the arena.
+#[derive(Clone, Copy)]
+struct Foreign;
+
+impl BxDF for Foreign {
+    fn flags(&self) -> BxdfFlags {
+        BxdfFlags::REFLECTION | BxdfFlags::DIFFUSE
+    }
+    fn f(&self, _wo: Vec3, _wi: Vec3) -> Spectrum {
+        Spectrum::splat(0.1)
+    }
+}
+
+struct ForeignMaterial;
+
+impl Material for ForeignMaterial {
+    fn compute_scattering<'a>(
+        &self,
+        si: &mut SurfaceInteraction,
+        arena: &'a Arena,
+        _mode: TransportMode,
+        _allow_multiple_lobes: bool,
+    ) -> Bsdf<'a> {
+        let mut bsdf = Bsdf::new(si.tangent_frame(), si.n(), 1.0);
+        bsdf.add(arena.lobe(Foreign));
+        bsdf.add(arena.lobe(Foreign));
+        bsdf
+    }
+}
+
+/// How many allocations happen between the end of the first tile and the end of the last. The image
+/// is full of both shapes, so the first tile is as demanding as any.
+///
+/// One test for all cases, since the count is the whole process's. Seen to fail with a box around each
+/// hit's material call, and with a new `Wave` for each tile.
+#[test]
+fn rendering_allocates_nothing_after_set_up() {
+    let chapter = IntegratorSettings::Chapter { highlight: true };
+    for (integrator, kind) in [
+        (chapter, SamplerKind::Independent),
+        (IntegratorSettings::Direct, SamplerKind::Independent),
+        (IntegratorSettings::Direct, SamplerKind::Stratified),
+    ] {
+        let scene = ball_over_floor(UVec2::new(100, 80))
+            .sampler(SamplerSettings { kind, spp: 16, seed: 0 })
+            .integrator(integrator)
+            .material("red", ForeignMaterial)
+            .light(PointLight::new(Vec3::new(10.0, 10.0, -10.0), Spectrum::splat(900.0)))
+            .light(PointLight::new(Vec3::new(-5.0, 3.0, 1.0), Spectrum::splat(20.0)))
+            .build()
+            .unwrap();
+        // (tiles done, allocations by then), the first and the latest.
+        let seen = Mutex::new([(0, 0); 2]);
+        let progress = |_| {
+            let count = ALLOCATIONS.load(Ordering::SeqCst);
+            let mut seen = seen.lock().unwrap();
+            let tiles = seen[1].0 + 1;
+            seen[1] = (tiles, count);
+            // The arena grows when the first foreign lobe is met, some tiles into the picture.
+            if tiles == 30 {
+                seen[0] = (tiles, count);
+            }
+        };
+        let options = RenderOptions {
+            threads: NonZeroUsize::new(1),
+            tile_size: 8,
+            layers: true,
+            progress: Some(&progress),
+            ..RenderOptions::default()
+        };
+        render(&scene, &options).unwrap();
+        let [first, last] = *seen.lock().unwrap();
+        assert!(first.0 == 30 && last.0 == 130, "{first:?}, {last:?}");
+        let allocations = last.1 - first.1;
+        assert_eq!(allocations, 0, "{integrator:?} {kind:?}: {allocations} in 100 tiles");
+    }
+}

@@ -1,0 +1,75 @@
+//! Scenes and samplers that several tests render.
+#![allow(dead_code, reason = "each test binary uses a part of it")]
+
+use lobe::glam::{UVec2, Vec2, Vec3};
+use lobe::sampling::{SampleId, Sampler};
+use lobe::scene::SceneBuilder;
+use lobe::{CameraSettings, MatteMaterial, Scene, TriangleMesh};
+
+/// One sample in the middle of each pixel, so that a closed form can say what it has to be.
+pub struct Middle;
+
+impl Sampler for Middle {
+    fn samples_per_pixel(&self) -> u32 {
+        1
+    }
+    fn get_1d(&self, _id: SampleId, _dimension: u32) -> f32 {
+        0.5
+    }
+    fn get_2d(&self, _id: SampleId, _dimension: u32) -> Vec2 {
+        Vec2::splat(0.5)
+    }
+}
+
+/// A rectangle in the plane y = `y`, from -`half` to `half` in x and z, facing up.
+pub fn floor(y: f32, half: f32) -> TriangleMesh {
+    let corner = |x: f32, z: f32| Vec3::new(x * half, y, z * half);
+    TriangleMesh {
+        positions: vec![corner(-1.0, 1.0), corner(1.0, 1.0), corner(-1.0, -1.0), corner(1.0, -1.0)],
+        indices: vec![[0, 1, 2], [1, 3, 2]],
+        ..TriangleMesh::default()
+    }
+}
+
+/// A ball of unit radius about the origin, cut along `rows` circles of latitude, with bumps.
+pub fn lumpy_ball(rows: u32) -> TriangleMesh {
+    let columns = 2 * rows;
+    let point = |row: u32, column: u32| {
+        let theta = std::f32::consts::PI * row as f32 / rows as f32;
+        let phi = std::f32::consts::TAU * (column % columns) as f32 / columns as f32;
+        let radius = 1.0 + 0.1 * (5.0 * theta).sin() * (7.0 * phi).cos();
+        radius * Vec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin())
+    };
+    let index = |row: u32, column: u32| match row {
+        0 => 0,
+        _ if row == rows => 1,
+        _ => 2 + (row - 1) * columns + column % columns,
+    };
+    let mut mesh =
+        TriangleMesh { positions: vec![point(0, 0), point(rows, 0)], ..Default::default() };
+    for row in 1..rows {
+        mesh.positions.extend((0..columns).map(|column| point(row, column)));
+    }
+    for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
+        let [a, b] = [index(row, column), index(row, column + 1)];
+        let [c, d] = [index(row + 1, column), index(row + 1, column + 1)];
+        mesh.indices.extend([[a, b, c], [b, d, c]].iter().filter(|t| t[0] != t[1] && t[1] != t[2]));
+    }
+    mesh
+}
+
+/// The chapter's camera.
+pub fn chapter_camera() -> CameraSettings {
+    CameraSettings { eye: Vec3::new(-3.0, 1.5, -3.0), look_at: Vec3::ZERO, ..Default::default() }
+}
+
+/// A red ball over a blue floor, seen as in the chapter; lights and integrator are left to the test.
+pub fn ball_over_floor(resolution: UVec2) -> SceneBuilder {
+    Scene::builder()
+        .camera(chapter_camera())
+        .resolution(resolution.x, resolution.y)
+        .material("red", MatteMaterial::new([0.8, 0.1, 0.2]))
+        .material("blue", MatteMaterial::new([0.2, 0.3, 0.9]))
+        .shape("ball", lumpy_ball(24), "red")
+        .shape("floor", floor(-2.0, 6.0), "blue")
+}
