@@ -1,0 +1,119 @@
+//! The matte material and constant textures.
+
+use std::sync::Arc;
+
+use lobe::Spectrum;
+use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, LambertianReflection, OrenNayar, TransportMode};
+use lobe::glam::Vec3;
+use lobe::interaction::SurfaceInteraction;
+use lobe::material::{Material, MatteMaterial};
+use lobe::texture::{ConstantTexture, Texture, TextureHandle};
+
+use crate::common::meshes::single;
+
+const B: [f32; 3] = [0.2, 0.3, 0.5];
+
+/// Gives what it is told of the texture coordinates.
+struct OfU<T>(fn(f32) -> T);
+
+impl<T> Texture<T> for OfU<T> {
+    fn evaluate(&self, si: &SurfaceInteraction) -> T {
+        self.0(si.uv().x)
+    }
+}
+
+/// The lobes of a material on a triangle in the plane z = 0, where u is 0.8.
+fn with_bsdf(material: &MatteMaterial, look: impl FnOnce(&Bsdf, &SurfaceInteraction)) {
+    let mesh = single([Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0)]);
+    let mut si = SurfaceInteraction::on_triangle(&mesh, 0, B, Vec3::Z);
+    let arena = Arena::new();
+    let bsdf = material.compute_scattering(&mut si, &arena, TransportMode::Radiance, true);
+    look(&bsdf, &si);
+}
+
+fn f(material: &MatteMaterial) -> Spectrum {
+    let mut found = Spectrum::BLACK;
+    with_bsdf(material, |bsdf, _| {
+        assert_eq!(bsdf.num_components(BxdfFlags::REFLECTION | BxdfFlags::DIFFUSE), 1);
+        assert_eq!(bsdf.num_components(BxdfFlags::all()), 1);
+        let frame = bsdf.frame();
+        found = bsdf.f(frame.to_world(WO), frame.to_world(WI), BxdfFlags::all());
+    });
+    found
+}
+
+const WO: Vec3 = Vec3::new(0.6, 0.0, 0.8);
+const WI: Vec3 = Vec3::new(0.64, 0.48, 0.6);
+
+fn close(a: Spectrum, b: Spectrum) -> bool {
+    a.to_array().into_iter().zip(b.to_array()).all(|(a, b)| (a - b).abs() <= 1e-6)
+}
+
+/// Sigma chooses the lobe: none or 0 is Lambert's, anything else Oren-Nayar's, from 0 to 90. Caught: sigma
+/// not clamped; Oren-Nayar for 0, which the count of lobes does not tell.
+#[test]
+fn sigma_chooses_the_lobe() {
+    let kd = Spectrum::new(0.6, 0.3, 0.2);
+    let matte = |sigma: f32| MatteMaterial::new(kd).with_sigma(sigma);
+    let lambert = LambertianReflection::new(kd).f(WO, WI);
+    let rough = |sigma: f32| OrenNayar::new(kd, sigma).f(WO, WI);
+    assert!(close(f(&MatteMaterial::new(kd)), lambert));
+    assert!(close(f(&matte(0.0)), lambert));
+    assert!(close(f(&matte(-20.0)), lambert));
+    assert!(close(f(&matte(20.0)), rough(20.0)) && !close(lambert, rough(20.0)));
+    assert!(close(f(&matte(1e30)), rough(90.0)));
+    let textured = MatteMaterial::new(kd).with_sigma(Arc::new(OfU(|u| 100.0 * u)));
+    assert!(close(f(&textured), rough(80.0)));
+}
+
+/// The reflectance is brought into [0, 1] per band, and a black surface has no lobe. Caught: no clamp; a lobe
+/// of R = 0.
+#[test]
+fn reflectance_is_clamped() {
+    let expected = LambertianReflection::new(Spectrum::new(1.0, 0.0, 0.5)).f(WO, WI);
+    assert!(close(f(&MatteMaterial::new([2.0, -1.0, 0.5])), expected));
+    assert!(close(
+        f(&MatteMaterial::new(Arc::new(OfU(|u| Spectrum::new(u + 1.0, -u, 0.5))))),
+        expected
+    ));
+    for black in [[0.0, 0.0, 0.0], [-1.0, -0.0, 0.0]] {
+        with_bsdf(&MatteMaterial::new(black).with_sigma(20.0), |bsdf, _| {
+            assert_eq!(bsdf.num_components(BxdfFlags::all()), 0);
+            assert!(bsdf.f(Vec3::Z, Vec3::Z, BxdfFlags::all()).is_black());
+        });
+    }
+}
+
+/// A displacement tilts the frame of the lobes, and the geometric normal stays. Caught: bump mapping after the
+/// frame was made, and whose result is dropped.
+#[test]
+fn bumps_reach_the_lobes() {
+    // A slope of 1 along u, which is along x.
+    let bumpy = MatteMaterial::new([0.5; 3]).with_bump(Arc::new(OfU(|u| u)));
+    with_bsdf(&bumpy, |bsdf, si| {
+        let n = Vec3::new(-1.0, 0.0, 1.0).normalize();
+        assert!(bsdf.frame().n.distance(n) < 1e-3, "{}", bsdf.frame().n);
+        assert_eq!(si.shading_n(), bsdf.frame().n);
+        assert_eq!(si.n(), Vec3::Z);
+        // Above the surface, but below its bumpy look: still reflected. Below it: not.
+        let low = Vec3::new(0.9, 0.0, 0.1).normalize();
+        assert!(!bsdf.f(Vec3::Z, low, BxdfFlags::all()).is_black());
+        let leak = Vec3::new(-0.9, 0.0, -0.1).normalize();
+        assert!(leak.dot(n) > 0.0 && bsdf.f(Vec3::Z, leak, BxdfFlags::all()).is_black());
+    });
+}
+
+/// Caught: nothing that compiles.
+#[test]
+fn constant_textures_are_constant() {
+    let mesh = single([Vec3::ZERO, Vec3::X, Vec3::Y]);
+    let color = Spectrum::new(0.1, 0.2, 0.3);
+    for b in [B, [1.0, 0.0, 0.0], [f32::NAN; 3]] {
+        let si = SurfaceInteraction::on_triangle(&mesh, 0, b, Vec3::Z);
+        assert_eq!(ConstantTexture::new(0.25_f32).evaluate(&si), 0.25);
+        assert_eq!(ConstantTexture::new(color).evaluate(&si), color);
+        assert_eq!(TextureHandle::from(0.25).evaluate(&si), 0.25);
+        assert_eq!(TextureHandle::from([0.1, 0.2, 0.3]).evaluate(&si), color);
+        assert_eq!(TextureHandle::from(Arc::new(ConstantTexture::new(color))).evaluate(&si), color);
+    }
+}
