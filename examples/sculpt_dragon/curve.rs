@@ -1,7 +1,7 @@
 //! Smooth curves with a radius: the bones that every part of the dragon grows on.
 //!
-//! A curve is a natural cubic spline through its keys, (x, y, z, radius) each, with chord-length knots. It is C2, so the
-//! distance field around it has continuous normals and curvature.
+//! A curve is a natural cubic spline through its keys, (x, y, z, radius) each, with chord-length
+//! knots. It is C2, so the distance field around it has continuous normals and curvature.
 
 use glam::{DVec3, DVec4, Vec4Swizzles};
 
@@ -23,21 +23,15 @@ impl Span {
         c1 + t * (2.0 * c2 + t * 3.0 * c3)
     }
 
-    /// Parameter of the point of this span that is closest to `p`: the best of five samples, then Newton's method on the
-    /// derivative of the squared distance, kept within \[0, 1\].
+    /// Parameter of the point of this span that is closest to `p`: from the foot of `p` on the
+    /// chord, Newton's method on the derivative of the squared distance, kept within \[0, 1\].
+    /// Meant for spans that turn by less than a right angle.
     pub fn closest(&self, p: DVec3) -> f64 {
-        let distance = |t: f64| self.at(t).xyz().distance_squared(p);
-        let mut t = 0.0;
-        let mut best = f64::INFINITY;
-        for i in 0..=4 {
-            let candidate = f64::from(i) * 0.25;
-            let d = distance(candidate);
-            if d < best {
-                (t, best) = (candidate, d);
-            }
-        }
+        let start = self.coefficients[0].xyz();
+        let chord = self.at(1.0).xyz() - start;
+        let mut t = ((p - start).dot(chord) / chord.length_squared()).clamp(0.0, 1.0);
         let [_, _, c2, c3] = self.coefficients.map(|c| c.xyz());
-        for _ in 0..4 {
+        for _ in 0..6 {
             let offset = self.at(t).xyz() - p;
             let first = self.derivative(t).xyz();
             let second = 2.0 * c2 + 6.0 * t * c3;
@@ -45,13 +39,27 @@ impl Span {
             let slope = offset.dot(first);
             let full = first.length_squared() + offset.dot(second);
             let bend = full.max(0.3 * first.length_squared());
-            t = (t - slope / bend).clamp(0.0, 1.0);
+            let next = (t - slope / bend).clamp(0.0, 1.0);
+            let moved = (next - t).abs();
+            t = next;
+            if moved < 1e-9 {
+                break;
+            }
         }
         t
     }
+
+    /// How much longer the surface is than the curve at `offset` from the point at t: below 1
+    /// within a bend, above 1 outside it.
+    pub fn stretch(&self, t: f64, offset: DVec3) -> f64 {
+        let [_, _, c2, c3] = self.coefficients.map(|c| c.xyz());
+        let second = 2.0 * c2 + 6.0 * t * c3;
+        1.0 - second.dot(offset) / self.derivative(t).xyz().length_squared()
+    }
 }
 
-/// The spline through `keys`, one span between each two. At least two keys, no two neighbours at the same place.
+/// The spline through `keys`, one span between each two. At least two keys, no two neighbours at
+/// the same place.
 pub fn interpolate(keys: &[DVec4]) -> Vec<Span> {
     let chord: Vec<f64> = keys.windows(2).map(|k| k[0].xyz().distance(k[1].xyz())).collect();
     let bends = second_derivatives(keys, &chord);
@@ -72,7 +80,8 @@ pub fn interpolate(keys: &[DVec4]) -> Vec<Span> {
         .collect()
 }
 
-/// Second derivatives at the keys of the natural spline: a tridiagonal system, solved by Thomas's algorithm.
+/// Second derivatives at the keys of the natural spline: a tridiagonal system, solved by Thomas's
+/// algorithm.
 fn second_derivatives(keys: &[DVec4], chord: &[f64]) -> Vec<DVec4> {
     let n = keys.len();
     let mut upper = vec![0.0; n];

@@ -1,13 +1,15 @@
 //! Decimation by edge collapse, cheapest first.
 //!
-//! Costs and places come from error quadrics (Garland & Heckbert 1997). A collapse is refused if it
-//! - would change the topology: the two ends must have exactly two common neighbours (the link condition of Dey, Edelsbrunner,
-//!   Guha & Nekhayev, "Topology preserving edge contraction", 1999);
+//! Costs and places come from error quadrics (Garland & Heckbert 1997). A collapse is refused if
+//! it
+//! - would change the topology: the two ends must have exactly two common neighbours (the link
+//!   condition of Dey, Edelsbrunner, Guha & Nekhayev, "Topology preserving edge contraction",
+//!   1999);
 //! - would turn a triangle by more than about 75 degrees;
 //! - would leave a triangle that is a sliver and worse than those before.
 //!
-//! So a closed two-manifold stays one, with the same genus. The order is fixed by cost and, among equals, by edge number:
-//! the result does not depend on anything else.
+//! So a closed two-manifold stays one, with the same genus. The order is fixed by cost and, among
+//! equals, by edge number: the result does not depend on anything else.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -15,15 +17,15 @@ use std::collections::BinaryHeap;
 use glam::DVec3;
 
 use crate::halfedge::{Defect, HalfEdges};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, quality};
 use crate::parallel;
 use crate::quadric::Quadric;
 
-/// Weight of a vertex's own place against its planes. It keeps the minimum well defined on flat ground and spreads the
-/// vertices evenly there.
-const STAY: f64 = 2e-3;
+/// Weight of a vertex's own place against its planes. It keeps the minimum well defined on flat
+/// ground and spreads the vertices evenly there.
+const STAY: f64 = 1e-5;
 /// Least quality of a triangle that a collapse may make, 1 being equilateral.
-const QUALITY: f64 = 0.2;
+const QUALITY: f64 = 0.08;
 /// Marks the corners of a removed triangle.
 const REMOVED: [u32; 3] = [u32::MAX; 3];
 
@@ -69,13 +71,21 @@ struct Decimation<'a> {
     heap: BinaryHeap<Candidate>,
 }
 
-/// Collapses edges of the closed `mesh` until at most `target` triangles remain, or no collapse is allowed.
-pub fn decimate(mesh: &mut Mesh, target: usize, threads: usize) -> Result<(), Defect> {
+/// Collapses edges of the closed `mesh` until at most `target` triangles remain, or no collapse is
+/// allowed.
+///
+/// Errors about a place count `weight` times, so that triangles gather where they are wanted.
+pub fn decimate(
+    mesh: &mut Mesh,
+    target: usize,
+    weight: impl Fn(DVec3) -> f64 + Sync,
+    threads: usize,
+) -> Result<(), Defect> {
     if mesh.triangles.len() <= target {
         return Ok(());
     }
     let mut remaining = mesh.triangles.len();
-    let mut d = Decimation::new(mesh, threads)?;
+    let mut d = Decimation::new(mesh, &weight, threads)?;
     while remaining > target
         && let Some(candidate) = d.heap.pop()
     {
@@ -89,11 +99,15 @@ pub fn decimate(mesh: &mut Mesh, target: usize, threads: usize) -> Result<(), De
 }
 
 impl Decimation<'_> {
-    fn new(mesh: &mut Mesh, threads: usize) -> Result<Decimation<'_>, Defect> {
+    fn new<'a>(
+        mesh: &'a mut Mesh,
+        weight: &(impl Fn(DVec3) -> f64 + Sync),
+        threads: usize,
+    ) -> Result<Decimation<'a>, Defect> {
         let edges = HalfEdges::pair(mesh)?;
         let stamps = vec![0; mesh.positions.len()];
         let mut quadrics = vec![Quadric::default(); mesh.positions.len()];
-        parallel::fill(&mut quadrics, threads, |v| vertex_quadric(mesh, &edges, v as u32));
+        parallel::fill(&mut quadrics, threads, |v| vertex_quadric(mesh, &edges, v as u32, weight));
         let mut d = Decimation { mesh, edges, quadrics, stamps, heap: BinaryHeap::new() };
         let mut costs = vec![f32::NAN; d.edges.twin.len()];
         parallel::fill(&mut costs, threads, |e| {
@@ -166,7 +180,8 @@ impl Decimation<'_> {
         common == 2 && wings.iter().all(|&w| self.edges.around(w).count() > 3)
     }
 
-    /// Whether moving `v` to `place` leaves good triangles around it, those that also hold `other` aside.
+    /// Whether moving `v` to `place` leaves good triangles around it, those that also hold `other`
+    /// aside.
     fn shape_allows(&self, v: u32, other: u32, place: DVec3) -> bool {
         self.edges.around(v).all(|e| {
             let (q, r) = (self.ends(e).1, self.ends(HalfEdges::next(e)).1);
@@ -180,7 +195,8 @@ impl Decimation<'_> {
         })
     }
 
-    /// Removes the two triangles at `e`, glues what lay beyond them, and gives the triangles of `a` to `b`.
+    /// Removes the two triangles at `e`, glues what lay beyond them, and gives the triangles of
+    /// `a` to `b`.
     fn join(&mut self, e: u32, a: u32, b: u32, wings: [u32; 2]) {
         let fan: Vec<u32> = self.edges.around(a).collect();
         for e in fan {
@@ -212,21 +228,20 @@ impl Decimation<'_> {
 }
 
 /// Planes of the triangles about `v`, weighted by area, and a weak wish to stay.
-fn vertex_quadric(mesh: &Mesh, edges: &HalfEdges, v: u32) -> Quadric {
+fn vertex_quadric(
+    mesh: &Mesh,
+    edges: &HalfEdges,
+    v: u32,
+    weight: impl Fn(DVec3) -> f64,
+) -> Quadric {
     let p = mesh.positions[v as usize];
+    let weight = weight(p);
     let mut sum = Quadric::default();
     for e in edges.around(v) {
         let normal = mesh.normal2(mesh.triangles[e as usize / 3]);
-        let area = 0.5 * normal.length();
-        sum = sum.plus(&Quadric::plane(p, normal.normalize_or_zero(), area));
-        sum = sum.plus(&Quadric::point(p, STAY * area));
+        let share = weight * 0.5 * normal.length();
+        sum = sum.plus(&Quadric::plane(p, normal.normalize_or_zero(), share));
+        sum = sum.plus(&Quadric::point(p, STAY * share));
     }
     sum
-}
-
-/// Shape of a triangle: 1 if equilateral, 0 if degenerate (area over the sum of squared sides, scaled).
-pub fn quality(p: DVec3, q: DVec3, r: DVec3) -> f64 {
-    let area2 = (q - p).cross(r - p).length();
-    let sides = p.distance_squared(q) + q.distance_squared(r) + r.distance_squared(p);
-    if sides == 0.0 { 0.0 } else { 2.0 * 3f64.sqrt() * area2 / sides }
 }

@@ -1,7 +1,8 @@
 //! Half-edges of a triangle mesh: which triangle lies across each side.
 //!
-//! Half-edge `3 t + k` runs from corner k of triangle t to its next corner. Pairing every half-edge with exactly one that
-//! runs the other way is what it means for a mesh to be closed and consistently oriented.
+//! Half-edge `3 t + k` runs from corner k of triangle t to its next corner. Pairing every
+//! half-edge with exactly one that runs the other way is what it means for a mesh to be closed and
+//! consistently oriented.
 
 use std::fmt;
 

@@ -1,13 +1,15 @@
 //! Extraction of the surface: marching tetrahedra on the body-centred cubic lattice.
 //!
-//! The lattice has a point at every corner and every centre of a grid of cubes. Two cubes that share a side give four
-//! tetrahedra, each of both centres and one edge of the side; all are congruent and they fill space (Chan & Purisima, "A new
-//! tetrahedral tesselation scheme for isosurface generation", 1998). A tetrahedron whose corners differ in sign is cut by
-//! one triangle or two (Doi & Koide 1991).
+//! The lattice has a point at every corner and every centre of a grid of cubes. Two cubes that
+//! share a side give four tetrahedra, each of both centres and one edge of the side; all are
+//! congruent and they fill space (Chan & Purisima, "A new tetrahedral tesselation scheme for
+//! isosurface generation", 1998). A tetrahedron whose corners differ in sign is cut by one
+//! triangle or two (Doi & Koide 1991).
 //!
-//! Guarantee: no sample counts as zero, so the cut is the zero set of a piecewise linear function that vanishes at no lattice
-//! point. That is a closed two-manifold, and it is oriented from negative to positive. A vertex is named by the lattice
-//! edge that it lies on, so that neighbours agree on it without comparing coordinates.
+//! Guarantee: no sample counts as zero, so the cut is the zero set of a piecewise linear function
+//! that vanishes at no lattice point. That is a closed two-manifold, and it is oriented from
+//! negative to positive. A vertex is named by the lattice edge that it lies on, so that neighbours
+//! agree on it without comparing coordinates.
 
 use glam::DVec3;
 
@@ -56,7 +58,8 @@ pub fn extract(field: &Field, h: f64, threads: usize) -> Mesh {
     Mesh { positions: vertices.into_iter().map(|v| v.1).collect(), triangles }
 }
 
-/// Blocks that the surface may pass through. The outermost layer of the prepared box stays empty.
+/// Blocks that the surface may pass through. The dragon keeps away from the sides of the prepared
+/// box, where a last, incomplete layer of blocks is left out.
 fn surface_blocks(field: &Field, low: DVec3, high: DVec3, h: f64) -> Vec<[i64; 3]> {
     let edge = h * BLOCK as f64;
     let [nx, ny, nz] = ((high - low) / edge).floor().to_array().map(|n| n as i64);
@@ -75,7 +78,8 @@ fn surface_blocks(field: &Field, low: DVec3, high: DVec3, h: f64) -> Vec<[i64; 3
     blocks
 }
 
-/// Samples one block and cuts its tetrahedra: those of each cube with its neighbours towards +x, +y and +z.
+/// Samples one block and cuts its tetrahedra: those of each cube with its neighbours towards +x,
+/// +y and +z.
 fn march_block(field: &Field, low: DVec3, h: f64, block: [i64; 3]) -> Patch {
     let base = block.map(|b| 2 * BLOCK * b);
     let sample = |kind: i64| {
@@ -116,8 +120,8 @@ fn march_block(field: &Field, low: DVec3, h: f64, block: [i64; 3]) -> Patch {
 }
 
 impl Patch {
-    /// Cuts a positively oriented tetrahedron. The orders below are even permutations that bring the corners of the lesser
-    /// kind to the front.
+    /// Cuts a positively oriented tetrahedron. The orders below are even permutations that bring
+    /// the corners of the lesser kind to the front.
     fn cut(&mut self, t: [Sample; 4], low: DVec3, h: f64) {
         const ONE: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]];
         const TWO: [[usize; 4]; 6] =

@@ -101,8 +101,8 @@ impl Mesh {
         self.positions = kept;
     }
 
-    /// The half-edges that leave each vertex (half-edge `3 t + k` leaves corner k of triangle t): the start of each vertex's
-    /// run, with one more at the end, and the runs.
+    /// The half-edges that leave each vertex (half-edge `3 t + k` leaves corner k of triangle t):
+    /// the start of each vertex's run, with one more at the end, and the runs.
     pub fn fans(&self) -> (Vec<u32>, Vec<u32>) {
         let mut start = vec![0u32; self.positions.len() + 1];
         for &v in self.triangles.iter().flatten() {
@@ -130,4 +130,12 @@ fn root(parent: &mut [u32], mut v: u32) -> u32 {
         v = up;
     }
     v
+}
+
+/// Shape of a triangle: 1 if equilateral, 0 if degenerate (area over the sum of squared sides,
+/// scaled).
+pub fn quality(p: DVec3, q: DVec3, r: DVec3) -> f64 {
+    let area2 = (q - p).cross(r - p).length();
+    let sides = p.distance_squared(q) + q.distance_squared(r) + r.distance_squared(p);
+    if sides == 0.0 { 0.0 } else { 2.0 * 3f64.sqrt() * area2 / sides }
 }

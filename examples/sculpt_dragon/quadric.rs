@@ -1,7 +1,7 @@
 //! Error quadrics: the sum of squared distances to planes, as a function of position.
 //!
-//! Garland & Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH 1997, section 4; planes are weighted by
-//! area, as in Garland's thesis (1999), section 3.4.
+//! Garland & Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH 1997,
+//! section 4; planes are weighted by area, as in Garland's thesis (1999), section 3.4.
 
 use glam::{DMat3, DVec3};
 

@@ -1,5 +1,7 @@
-//! Evens out a mesh on the field's surface: each vertex slides towards the middle of its neighbours, then Newton steps along
-//! the field's gradient bring it back onto the surface.
+//! Evens out a mesh on the field's surface: each vertex slides towards the middle of its
+//! neighbours, then Newton steps along the field's gradient bring it back onto the surface. No
+//! step is longer than 0.4 of the lattice's, and only positions change, so the mesh stays the
+//! manifold that it is.
 
 use glam::DVec3;
 

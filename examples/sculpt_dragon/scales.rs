@@ -33,7 +33,8 @@ impl Skin {
         }
     }
 
-    /// Height of the relief, as a part of the radius, at row coordinate `u` and angle `theta` (0 at the back, pi below).
+    /// Height of the relief, as a part of the radius, at row coordinate `u` and angle `theta` (0
+    /// at the back, pi below).
     pub fn relief(self, u: f64, theta: f64) -> f64 {
         match self {
             Skin::Smooth => 0.0,
@@ -59,8 +60,9 @@ impl Skin {
     }
 }
 
-/// Height in \[0, 1\] of a coat of scales, each one row long and one wide, at row coordinate `u` and column coordinate `v`.
-/// A scale rises from its root to its free edge, which covers the roots of the next two rows.
+/// Height in \[0, 1\] of a coat of scales, each one row long and one wide, at row coordinate `u`
+/// and column coordinate `v`. A scale rises from its root to its free edge, which covers the roots
+/// of the next two rows.
 fn scale_height(u: f64, v: f64) -> f64 {
     let row = u.floor();
     let mut height: f64 = 0.0;
@@ -77,27 +79,29 @@ fn scale_height(u: f64, v: f64) -> f64 {
     height
 }
 
-/// Height of one scale at `a` from its root (its tip lies at a = 1.6) and `b` from its middle line.
+/// Height of one scale at `a` from its root (its tip lies at a = 1.75) and `b` from its middle
+/// line.
 fn one_scale(a: f64, b: f64) -> f64 {
     const HALF_WIDTH: f64 = 0.62;
-    const LENGTH: f64 = 1.6;
+    const LENGTH: f64 = 1.75;
     let across = b / HALF_WIDTH;
     if across.abs() >= 1.0 {
         return 0.0;
     }
     let tip = LENGTH * (1.0 - across * across).sqrt();
-    let edge = smoothstep(0.0, 0.22, tip - a);
-    let slope = 0.25 + 0.75 * (a / LENGTH);
-    let crown = 1.0 - 0.45 * across * across;
+    let edge = smoothstep(0.0, 0.28, tip - a);
+    let slope = 0.25 * smoothstep(0.0, 0.3, a) + 0.75 * (a / LENGTH);
+    let crown = 1.0 - 0.3 * across * across;
     edge * slope * crown
 }
 
-/// Height of belly plates at row coordinate `u`; `side` runs from 0 on the middle line to 1 at the ends of a plate.
+/// Height of belly plates at row coordinate `u`; `side` runs from 0 on the middle line to 1 at the
+/// ends of a plate.
 fn plate_height(u: f64, side: f64) -> f64 {
-    let a = (0.5 * u + 0.08 * side * side).rem_euclid(1.0);
-    let edge = smoothstep(0.0, 0.12, 1.0 - a);
+    let a = (0.7 * u + 0.08 * side * side).rem_euclid(1.0);
+    let edge = smoothstep(0.0, 0.2, 1.0 - a);
     let end = 1.0 - smoothstep(0.78, 1.02, side);
-    1.4 * edge * (0.3 + 0.7 * a) * end
+    1.3 * (0.3 + 0.7 * a * edge) * end
 }
 
 /// Hermite step from 0 at `low` to 1 at `high`.

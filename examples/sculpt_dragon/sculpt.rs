@@ -3,17 +3,17 @@
 use glam::DVec3;
 
 use crate::anatomy;
-use crate::decimate::{decimate, quality};
+use crate::decimate::decimate;
 use crate::field::Field;
 use crate::lattice;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, quality};
 use crate::obj;
 use crate::parallel;
 use crate::relax::relax;
 use crate::verify::{Fault, verify};
 
 /// Triangles of the lattice's mesh times the square of its step (measured).
-const DENSITY: f64 = 300.0;
+const DENSITY: f64 = 320.0;
 /// Fewest triangles to begin with: decimation then finds the small forms whatever was asked for.
 const FEWEST: usize = 1_300_000;
 /// How many more triangles to begin with than were asked for.
@@ -41,7 +41,7 @@ pub fn sculpt(triangles: usize, threads: usize) -> Result<Dragon, Fault> {
     let mut mesh = lattice::extract(&field, h, threads);
     mesh.keep_largest_component();
     relax(&mut mesh, &field, h, 3, threads);
-    decimate(&mut mesh, triangles, threads).map_err(Fault::Surface)?;
+    decimate(&mut mesh, triangles, anatomy::interest, threads).map_err(Fault::Surface)?;
 
     let edge = (mesh.area() / mesh.triangles.len() as f64 * 2.3).sqrt();
     let normals = field_normals(&mesh, &field, 0.2 * edge, threads);
@@ -62,8 +62,8 @@ fn stage(mesh: &mut Mesh) {
     }
 }
 
-/// Normals from the field's gradient. Where a detail is finer than the mesh, the gradient may look away from the triangles;
-/// their own mean stands in there.
+/// Normals from the field's gradient. Where a detail is finer than the mesh, the gradient may look
+/// away from the triangles; their own mean stands in there.
 fn field_normals(mesh: &Mesh, field: &Field, step: f64, threads: usize) -> Vec<DVec3> {
     let means = mesh.vertex_normals();
     let mut normals = vec![DVec3::ZERO; mesh.positions.len()];

@@ -30,6 +30,9 @@ pub struct Sculpture {
     groups: Vec<Group>,
     /// Each shape with its group; groups ascend.
     shapes: Vec<(usize, Shape)>,
+    /// A ball that holds each shape; infinite where the distance is too rough an estimate to be
+    /// compared with one's.
+    balls: Vec<(DVec3, f64)>,
 }
 
 impl Sculpture {
@@ -42,7 +45,7 @@ impl Sculpture {
     pub fn tube(&mut self, tube: Tube) {
         let index = self.tubes.len();
         for span in 0..tube.len() {
-            self.push(Shape::Tube { tube: index, span });
+            self.push(Shape::Tube { tube: index, span }, tube.ball(span));
         }
         self.tubes.push(tube);
     }
@@ -54,26 +57,23 @@ impl Sculpture {
 
     /// Adds the hull of two balls.
     pub fn cone(&mut self, a: DVec3, ra: f64, b: DVec3, rb: f64) {
-        self.push(Shape::Cone { a, b, ra, rb });
+        let ball = (a.midpoint(b), 0.5 * a.distance(b) + ra.max(rb));
+        self.push(Shape::Cone { a, b, ra, rb }, ball);
     }
 
     /// Adds an ellipsoid whose axes are the columns of `frame`.
     pub fn ellipsoid(&mut self, centre: DVec3, frame: DMat3, radii: DVec3) {
-        self.push(Shape::Ellipsoid { centre, frame, radii });
-    }
-
-    /// Adds a ball.
-    pub fn ball(&mut self, centre: DVec3, radius: f64) {
-        self.ellipsoid(centre, DMat3::IDENTITY, DVec3::splat(radius));
+        self.push(Shape::Ellipsoid { centre, frame, radii }, (centre, f64::INFINITY));
     }
 
     /// Adds everything below a height.
     pub fn below(&mut self, height: f64) {
-        self.push(Shape::Below { height });
+        self.push(Shape::Below { height }, (DVec3::ZERO, f64::INFINITY));
     }
 
-    fn push(&mut self, shape: Shape) {
+    fn push(&mut self, shape: Shape, ball: (DVec3, f64)) {
         self.shapes.push((self.groups.len() - 1, shape));
+        self.balls.push(ball);
     }
 
     /// Number of shapes.
@@ -103,15 +103,25 @@ impl Sculpture {
         let mut i = 0;
         while i < list.len() {
             let (g, group) = self.group_of(list[i] as usize);
+            // A shape at this distance or beyond makes no difference to the field.
+            let idle = match group.join {
+                Join::Add => field + group.blend,
+                Join::Carve => group.blend - field,
+            };
             let mut inside = f64::INFINITY;
             while i < list.len() && self.shapes[list[i] as usize].0 == g {
-                let d = self.distance(list[i] as usize, p);
+                let shape = list[i] as usize;
+                i += 1;
+                let (centre, radius) = self.balls[shape];
+                if group.inner == 0.0 && p.distance(centre) - radius >= idle.min(inside) {
+                    continue;
+                }
+                let d = self.distance(shape, p);
                 inside = if group.inner > 0.0 {
                     smooth_min(inside, d, group.inner)
                 } else {
                     inside.min(d)
                 };
-                i += 1;
             }
             field = match group.join {
                 Join::Add => smooth_min(field, inside, group.blend),

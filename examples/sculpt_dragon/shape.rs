@@ -1,6 +1,7 @@
 //! Signed distance functions of the pieces, and how two fields are joined.
 //!
-//! Round cone, ellipsoid and the polynomial smooth minimum are those of Quilez, "Distance functions" and "Smooth minimum".
+//! Round cone, ellipsoid and the polynomial smooth minimum are those of Quilez, "Distance
+//! functions" and "Smooth minimum".
 
 use glam::{DMat3, DVec3};
 
@@ -10,7 +11,7 @@ pub enum Shape {
     Tube { tube: usize, span: usize },
     /// The hull of two balls.
     Cone { a: DVec3, b: DVec3, ra: f64, rb: f64 },
-    /// An ellipsoid; the rows of `frame` are its axes.
+    /// An ellipsoid; the columns of `frame` are its unit axes.
     Ellipsoid { centre: DVec3, frame: DMat3, radii: DVec3 },
     /// Everything below a height.
     Below { height: f64 },
@@ -45,8 +46,8 @@ pub fn ellipsoid(p: DVec3, centre: DVec3, frame: &DMat3, radii: DVec3) -> f64 {
     if k1 < 1e-12 { -radii.min_element() } else { k0 * (k0 - 1.0) / k1 }
 }
 
-/// The minimum of `a` and `b`, with the crease between them filled over a width of `k`. Equal to the minimum, to the bit,
-/// where they differ by `k` or more.
+/// The minimum of `a` and `b`, with the crease between them filled over a width of `k`. Equal to
+/// the minimum, to the bit, where they differ by `k` or more.
 pub fn smooth_min(a: f64, b: f64, k: f64) -> f64 {
     let h = k - (a - b).abs();
     if h <= 0.0 { a.min(b) } else { a.min(b) - h * h / (4.0 * k) }

@@ -7,6 +7,8 @@ use crate::scales::{Skin, smoothstep};
 
 /// Pieces into which a span is cut to tabulate its row coordinate.
 const PIECES: usize = 8;
+/// More than the height of any relief.
+const RELIEF_REACH: f64 = 0.08;
 
 /// A swelling of the tube about a place on it.
 #[derive(Clone, Copy)]
@@ -15,7 +17,7 @@ pub struct Muscle {
     pub at: f64,
     /// Half-length along the curve, in keys.
     pub along: f64,
-    /// Angle about the curve: 0 at the back, positive towards `tangent x normal`.
+    /// Angle about the curve: 0 at the back, positive towards `tangent x back`.
     pub angle: f64,
     /// Half-width in angle.
     pub around: f64,
@@ -30,10 +32,11 @@ pub struct Tube {
     rows: Vec<[f64; PIECES + 1]>,
     /// The back of the tube is at `side x tangent`.
     side: DVec3,
-    /// Width across `side`, as a part of the height.
+    /// Width along `side`, as a part of the height along the back.
     oval: f64,
     skin: Skin,
-    /// The skin's relief fades in over the first of these, and out over the second (in keys from either end).
+    /// The skin's relief fades in over the first of these, and out over the second (in keys from
+    /// either end).
     fade: (f64, f64),
     muscles: Vec<Muscle>,
 }
@@ -86,6 +89,21 @@ impl Tube {
         self.spans.len()
     }
 
+    /// A ball that holds the part of the tube about span `i`.
+    pub fn ball(&self, i: usize) -> (DVec3, f64) {
+        let span = &self.spans[i];
+        let centre = span.at(0.5).xyz();
+        let cuts = (0..=32).map(|k| span.at(f64::from(k) / 32.0));
+        let (mut far, mut thick): (f64, f64) = (0.0, 1e-3);
+        for c in cuts {
+            far = far.max(c.xyz().distance(centre));
+            thick = thick.max(c.w);
+        }
+        let swelling: f64 = self.muscles.iter().map(|m| m.height.max(0.0)).sum();
+        // Two percent for what lies between the cuts.
+        (centre, 1.02 * far + 1.02 * thick * (self.oval.max(1.0) + swelling) + RELIEF_REACH)
+    }
+
     /// Point, radius, back direction and sideways direction at `at` keys from the start.
     pub fn station(&self, at: f64) -> Station {
         let i = (at.max(0.0) as usize).min(self.spans.len() - 1);
@@ -118,17 +136,22 @@ impl Tube {
         let tangent = span.derivative(t).xyz().normalize();
         let back = self.side.cross(tangent).normalize();
         let (x, y) = (offset.dot(back), offset.dot(tangent.cross(back)));
-        // On the caps the angle loses its meaning towards the pole, so that everything that depends on it fades there.
-        let sideways = (x * x + y * y) / (length * length);
+        // On the caps the angle loses its meaning towards the pole, so everything that depends on
+        // it fades there.
+        let on_cap = (i == 0 && t == 0.0) || (i + 1 == self.spans.len() && t == 1.0);
+        let sideways = if on_cap { (x * x + y * y) / (length * length) } else { 1.0 };
         let theta = y.atan2(x);
         let section =
             1.0 + sideways * (self.section(x, y) - 1.0 + self.swelling(i as f64 + t, theta));
-        let relief = if (length - radius * section).abs() < 2.0 * radius {
-            sideways * self.relief(i, t, theta)
-        } else {
-            0.0
-        };
-        length - radius * (section + relief)
+        let bare = length - radius * section;
+        // Far from the skin its relief changes nothing that matters.
+        if bare.abs() > RELIEF_REACH || matches!(self.skin, Skin::Smooth) {
+            return bare;
+        }
+        // Where a bend crowds the rows or pulls them apart, the relief gives way.
+        let stretch = span.stretch(t, offset);
+        let calm = smoothstep(0.15, 0.45, stretch) * (1.0 - smoothstep(1.6, 2.4, stretch));
+        bare - radius * sideways * calm * self.relief(i, t, theta)
     }
 
     /// Radius of the unit section in direction (x, y).

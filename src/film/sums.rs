@@ -51,7 +51,7 @@ impl Film {
     pub fn new(resolution: UVec2, window: Window, layers: bool) -> Result<Self, FilmError> {
         // Colour and layers once as sums, once developed, and once more while they are written.
         let per_pixel = size_of::<Pixel>() + if layers { size_of::<FirstHits>() } else { 0 };
-        let bytes = window.area() as u64 * 3 * per_pixel as u64;
+        let bytes = (window.area() as u64).saturating_mul(3 * per_pixel as u64);
         let too_large = FilmError::TooLarge(window.size().x, window.size().y, bytes >> 20);
         let fits =
             usize::try_from(bytes).is_ok_and(|b| Vec::<u8>::new().try_reserve_exact(b).is_ok());

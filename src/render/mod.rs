@@ -124,7 +124,8 @@ pub fn render_with(
     };
     std::thread::scope(|scope| {
         let others: Vec<_> = (1..threads.map_or(1, NonZeroUsize::get).min(tiles.count()))
-            .map(|_| scope.spawn(work))
+            // Where the system gives no more threads, those that there are do the work.
+            .map_while(|_| std::thread::Builder::new().spawn_scoped(scope, work).ok())
             .collect();
         let mine = work();
         // A panic in a worker, which only foreign code can cause, goes on in the caller.

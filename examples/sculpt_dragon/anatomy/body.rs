@@ -1,5 +1,7 @@
 //! Neck, trunk and tail in one curve, and the crest of spikes along its back.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 
 use super::key;
@@ -25,14 +27,14 @@ pub fn spine() -> Tube {
         key(1.62, 0.52, -0.42, 0.215),
         key(1.85, 0.78, -0.52, 0.175),
         key(1.82, 1.16, -0.60, 0.145),
-        key(1.60, 1.44, -0.65, 0.12),
-        key(1.52, 1.76, -0.68, 0.095),
-        key(1.68, 2.02, -0.70, 0.07),
-        key(1.90, 2.08, -0.71, 0.04),
+        key(1.62, 1.44, -0.65, 0.12),
+        key(1.50, 1.76, -0.68, 0.10),
+        key(1.60, 2.04, -0.70, 0.08),
+        key(1.74, 2.18, -0.71, 0.05),
     ];
     let muscles = [
         // Breast.
-        Muscle { at: 4.6, along: 1.2, angle: 3.14, around: 1.0, height: 0.10 },
+        Muscle { at: 4.6, along: 1.2, angle: PI, around: 1.0, height: 0.10 },
         // Shoulder blades.
         Muscle { at: 5.3, along: 1.0, angle: 1.3, around: 0.9, height: 0.12 },
         Muscle { at: 5.3, along: 1.0, angle: -1.3, around: 0.9, height: 0.12 },
@@ -41,7 +43,7 @@ pub fn spine() -> Tube {
         Muscle { at: 11.0, along: 1.1, angle: -1.3, around: 0.9, height: 0.12 },
     ];
     Tube::new(&keys)
-        .skin(Skin::Scales { around: 22, depth: 0.24, belly: 0.62 }, (0.8, 0.8))
+        .skin(Skin::Scales { around: 18, depth: 0.24, belly: 0.62 }, (0.8, 4.5))
         .oval(0.92)
         .muscles(&muscles)
 }
@@ -63,35 +65,40 @@ pub fn crest(spine: &Tube) -> Vec<Tube> {
         let keys =
             [place(-0.2, -0.2, base), place(0.45, 0.15, 0.62 * base), place(1.0, 0.95, 0.008)];
         // Flattened across the body: the long axis of the section runs along it.
-        spikes.push(Tube::new(&keys).side(s.across).oval(0.4));
+        spikes.push(Tube::new(&keys).side(s.across).oval(0.45));
         at += (0.11 + 0.30 * s.radius) / spine.speed(at);
     }
     spikes
 }
 
-/// The flame at the tip of the tail: blades that fan out from its end.
+/// The flame at the tip of the tail: blades that fan out from its end and bend upwards.
 pub fn flame(spine: &Tube) -> Vec<Tube> {
-    const BLADES: [[f64; 3]; 6] = [
-        [0.0, 0.46, 0.0],
-        [0.5, 0.38, 0.3],
-        [-0.5, 0.38, -0.3],
-        [1.0, 0.30, 0.2],
-        [-1.0, 0.30, -0.2],
-        [1.5, 0.2, 0.0],
+    // (keys before the end of the curve, angle towards the back, length, aside)
+    const BLADES: [[f64; 4]; 9] = [
+        [0.05, 0.0, 0.62, 0.0],
+        [0.1, 0.35, 0.54, 0.15],
+        [0.1, -0.35, 0.52, -0.15],
+        [0.3, 0.65, 0.46, -0.1],
+        [0.3, -0.65, 0.44, 0.1],
+        [0.6, 0.8, 0.40, 0.1],
+        [0.6, -0.8, 0.38, -0.1],
+        [0.95, 0.85, 0.32, 0.0],
+        [0.95, -0.85, 0.30, 0.0],
     ];
-    let s = spine.station(spine.len() as f64 - 0.35);
-    let blade = |[turn, length, aside]: [f64; 3]| {
+    let blade = |[before, turn, length, aside]: [f64; 4]| {
+        let s = spine.station(spine.len() as f64 - before);
         let out = (s.tangent * turn.cos() + s.back * turn.sin() + s.across * aside).normalize();
-        let place = |along: f64, bend: f64, r: f64| {
-            (s.centre + (out * along + s.back * bend) * length).extend(r)
+        let place = |along: f64, lift: f64, r: f64| {
+            (s.centre + (out * along + DVec3::Y * lift) * length).extend(r)
         };
         let keys = [
             place(0.0, 0.0, 0.05),
-            place(0.35, -0.03, 0.055),
-            place(0.7, 0.03, 0.035),
-            place(1.0, 0.14, 0.006),
+            place(0.25, -0.06, 0.075),
+            place(0.55, -0.05, 0.062),
+            place(0.80, 0.08, 0.034),
+            place(0.98, 0.28, 0.005),
         ];
-        Tube::new(&keys).side(s.across).oval(0.5)
+        Tube::new(&keys).side(s.across).oval(0.75)
     };
     BLADES.map(blade).into()
 }

@@ -9,7 +9,8 @@ use crate::tube::Tube;
 const TOES: [(f64, f64); 5] =
     [(-46.0, 0.86), (-16.0, 1.0), (15.0, 1.0), (45.0, 0.86), (172.0, 0.62)];
 
-/// A foot below `ankle` that stands at `place` and points to `heading` (radians about y, 0 being -x, positive towards -z).
+/// A foot below `ankle` that stands at `place` and points to `heading` (radians about y, 0 being
+/// -x, positive towards -z).
 pub fn foot(s: &mut Sculpture, ankle: DVec4, place: DVec3, heading: f64) {
     let direction = |turn: f64| DVec3::new(-(heading + turn).cos(), 0.0, -(heading + turn).sin());
     let forward = direction(0.0);

@@ -75,14 +75,23 @@ fn flesh(s: &mut Sculpture, skull: &Skull) {
         ],
         1.0,
     ));
-    skull.ellipsoid(s, [0.70, 0.095, 0.0], [0.10, 0.085, 0.13]);
+    skull.ellipsoid(s, [0.70, 0.085, 0.0], [0.105, 0.08, 0.10]);
     // Wrinkles across the snout.
     for (f, u, wide) in [(0.36, 0.135, 0.06), (0.44, 0.12, 0.06), (0.52, 0.118, 0.06)] {
         s.cone(skull.at(f, u, wide), 0.026 * SIZE, skull.at(f, u, -wide), 0.026 * SIZE);
     }
     for m in SIDES {
         // Nostrils' wings, cheeks, lips.
-        skull.ellipsoid(s, [0.72, 0.145, 0.08 * m], [0.07, 0.055, 0.055]);
+        skull.ellipsoid(s, [0.70, 0.135, 0.085 * m], [0.075, 0.05, 0.045]);
+        s.bone(&skull.keys(
+            &[
+                [0.74, 0.12, 0.075, 0.03],
+                [0.66, 0.18, 0.105, 0.034],
+                [0.58, 0.205, 0.13, 0.022],
+                [0.52, 0.19, 0.15, 0.008],
+            ],
+            m,
+        ));
         skull.ellipsoid(s, [0.02, -0.07, 0.15 * m], [0.17, 0.13, 0.10]);
         s.bone(&skull.keys(
             &[
@@ -104,7 +113,7 @@ fn hollows(s: &mut Sculpture, skull: &Skull) {
     }
     s.group(Join::Carve, 0.02, 0.0);
     for m in SIDES {
-        skull.ellipsoid(s, [0.785, 0.15, 0.09 * m], [0.045, 0.034, 0.032]);
+        skull.ellipsoid(s, [0.755, 0.135, 0.115 * m], [0.04, 0.02, 0.028]);
     }
 }
 

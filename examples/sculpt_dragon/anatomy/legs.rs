@@ -7,8 +7,8 @@ use crate::scales::Skin;
 use crate::sculpture::{Join, Sculpture};
 use crate::tube::{Muscle, Tube};
 
-/// A leg: its curve from inside the body to the ankle, and where its foot points (degrees about y, 0 being -x, positive
-/// towards -z).
+/// A leg: its curve from inside the body to the ankle, and where its foot points (degrees about y,
+/// 0 being -x, positive towards -z).
 struct Leg {
     keys: [DVec4; 6],
     foot: DVec3,
@@ -24,9 +24,9 @@ pub fn legs(s: &mut Sculpture) {
             keys: [
                 key(-0.86, 1.04, 0.16, 0.22),
                 key(-0.74, 0.84, -0.06, 0.235),
-                key(-0.54, 0.60, -0.18, 0.175),
-                key(-0.66, 0.41, -0.25, 0.135),
-                key(-0.88, 0.27, -0.29, 0.115),
+                key(-0.55, 0.61, -0.18, 0.185),
+                key(-0.66, 0.41, -0.25, 0.155),
+                key(-0.88, 0.27, -0.29, 0.122),
                 key(-1.04, 0.14, -0.31, 0.085),
             ],
             foot: DVec3::new(-1.08, 0.0, -0.32),
@@ -38,9 +38,9 @@ pub fn legs(s: &mut Sculpture) {
             keys: [
                 key(-0.92, 1.04, 0.50, 0.22),
                 key(-0.92, 0.84, 0.66, 0.225),
-                key(-0.84, 0.58, 0.74, 0.17),
-                key(-1.00, 0.42, 0.74, 0.135),
-                key(-1.24, 0.30, 0.70, 0.115),
+                key(-0.84, 0.60, 0.74, 0.18),
+                key(-1.00, 0.42, 0.74, 0.155),
+                key(-1.24, 0.30, 0.70, 0.122),
                 key(-1.42, 0.15, 0.67, 0.085),
             ],
             foot: DVec3::new(-1.46, 0.0, 0.66),
@@ -52,9 +52,9 @@ pub fn legs(s: &mut Sculpture) {
             keys: [
                 key(1.06, 0.94, -0.26, 0.26),
                 key(0.90, 0.78, -0.42, 0.265),
-                key(0.66, 0.55, -0.52, 0.195),
-                key(0.80, 0.36, -0.57, 0.13),
-                key(0.98, 0.25, -0.60, 0.105),
+                key(0.71, 0.60, -0.50, 0.215),
+                key(0.72, 0.41, -0.55, 0.155),
+                key(0.92, 0.28, -0.59, 0.115),
                 key(0.86, 0.12, -0.62, 0.085),
             ],
             foot: DVec3::new(0.80, 0.0, -0.62),
@@ -66,9 +66,9 @@ pub fn legs(s: &mut Sculpture) {
             keys: [
                 key(1.10, 0.94, -0.02, 0.25),
                 key(1.02, 0.78, 0.18, 0.26),
-                key(0.86, 0.55, 0.34, 0.19),
-                key(1.00, 0.36, 0.40, 0.13),
-                key(1.20, 0.25, 0.42, 0.105),
+                key(0.89, 0.60, 0.32, 0.21),
+                key(0.92, 0.41, 0.38, 0.155),
+                key(1.12, 0.28, 0.41, 0.115),
                 key(1.08, 0.12, 0.43, 0.085),
             ],
             foot: DVec3::new(1.02, 0.0, 0.43),
@@ -84,7 +84,7 @@ pub fn legs(s: &mut Sculpture) {
 fn grow(s: &mut Sculpture, leg: &Leg) {
     let muscles = [Muscle { at: 3.5, along: 1.2, angle: 0.0, around: 1.2, height: 0.15 }];
     let tube = Tube::new(&leg.keys)
-        .skin(Skin::Scales { around: 13, depth: 0.22, belly: 0.0 }, (0.4, 0.7))
+        .skin(Skin::Scales { around: 10, depth: 0.24, belly: 0.0 }, (0.4, 0.7))
         .muscles(&muscles);
     let elbow = tube.station(leg.elbow);
     s.group(Join::Add, 0.13, 0.0);

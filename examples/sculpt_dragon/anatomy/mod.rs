@@ -9,6 +9,7 @@ mod mouth;
 
 use glam::{DVec3, DVec4};
 
+use crate::scales::smoothstep;
 use crate::sculpture::{Join, Sculpture};
 
 /// A box that holds the whole dragon with room to spare.
@@ -37,6 +38,14 @@ pub fn dragon() -> Sculpture {
     s.group(Join::Carve, 0.01, 0.0);
     s.below(0.0);
     s
+}
+
+/// How much a place is looked at: the face most, the tail and the rump least.
+pub fn interest(p: DVec3) -> f64 {
+    let from_face = p.distance(DVec3::new(-1.75, 2.35, 0.0));
+    let face = 8.0 * (1.0 - smoothstep(0.35, 0.8, from_face));
+    let rear = 0.6 * smoothstep(0.6, 1.4, p.x);
+    1.0 + face - rear
 }
 
 /// A key of a curve: position and radius.

@@ -1,6 +1,7 @@
 //! The open mouth: lower jaw, teeth and tongue.
 
 use crate::sculpture::{Join, Sculpture};
+use crate::tube::Tube;
 
 use super::head::{SIDES, Skull};
 
@@ -58,6 +59,15 @@ fn teeth(s: &mut Sculpture, skull: &Skull) {
             ];
             s.bone(&skull.keys(&tooth, m));
         }
+        // Incisors under the nose.
+        for (f, side) in [(0.755, 0.07), (0.775, 0.025)] {
+            let tooth = [
+                [f, 0.02, side, 0.026],
+                [f + 0.006, -0.03, side, 0.019],
+                [f - 0.01, -0.075, side, 0.004],
+            ];
+            s.bone(&skull.keys(&tooth, m));
+        }
         for i in 0..6 {
             let t = f64::from(i) / 5.0;
             let fang = if i == 5 { 1.9 } else { 1.0 };
@@ -77,12 +87,13 @@ fn teeth(s: &mut Sculpture, skull: &Skull) {
 fn tongue(s: &mut Sculpture, skull: &Skull) {
     s.group(Join::Add, 0.03, 0.0);
     let keys = [
-        [0.05, 0.0, 0.0, 0.06],
-        [0.25, 0.03, 0.0, 0.055],
-        [0.42, 0.08, 0.0, 0.05],
-        [0.54, 0.16, 0.0, 0.04],
-        [0.62, 0.28, 0.0, 0.026],
-        [0.72, 0.33, 0.0, 0.008],
+        [0.04, 0.0, 0.0, 0.05],
+        [0.20, 0.035, 0.0, 0.048],
+        [0.35, 0.075, 0.0, 0.043],
+        [0.46, 0.14, 0.0, 0.036],
+        [0.52, 0.22, 0.0, 0.027],
+        [0.585, 0.275, 0.0, 0.012],
     ];
-    s.bone(&skull.keys(&keys.map(hang), 1.0));
+    let tongue = Tube::new(&skull.keys(&keys.map(hang), 1.0));
+    s.tube(tongue.side(skull.side()).oval(1.45));
 }

@@ -44,9 +44,9 @@ pub struct Arguments {
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
 
-    /// How many threads [default: all that the machine has]; the picture does not depend on it
-    #[arg(long, value_name = "N")]
-    threads: Option<NonZeroUsize>,
+    /// How many threads, up to 1024 [default: all that the machine has]; the picture stays the same
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
 
     /// Prints nothing but errors
     #[arg(short, long)]
@@ -62,7 +62,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
 
     let bar = (!arguments.quiet).then(|| Bar::new(scene.film().window().area() as u64));
     let progress = |progress: Progress| bar.iter().for_each(|bar| bar.update(progress));
-    let threads = arguments.threads.or_else(|| std::thread::available_parallelism().ok());
+    let asked = arguments.threads.and_then(|threads| NonZeroUsize::new(threads.into()));
+    let threads = asked.or_else(|| std::thread::available_parallelism().ok());
     let options = RenderOptions {
         threads,
         layers: outputs.iter().any(|output| output.format == Format::Exr),

@@ -75,7 +75,8 @@ fn keys(error: &SceneError) -> Vec<&str> {
 }
 
 fn unknown<'a>(kind: &str, name: &str, known: impl Iterator<Item = &'a str>) -> Problem {
-    Problem::UnknownName { kind: kind.into(), name: name.into(), hint: hint(name, known) }
+    let hint = hint(name, known);
+    Problem::UnknownName { kind: kind.into(), name: name.escape_debug().to_string(), hint }
 }
 
 /// The scene's textures, for one of its materials.
@@ -126,7 +127,7 @@ impl Textures<'_> {
                 let entry = self.textures.iter().find(|(known, _)| known == name);
                 let known = self.textures.iter().map(|(known, _)| known.as_str());
                 let (_, texture) = entry.ok_or_else(|| fault(unknown("texture", name, known)))?;
-                (texture, format!("the texture `{name}`, {texture}"))
+                (texture, format!("the texture {name:?}, {texture}"))
             }
         };
         let key = full_name(&full_name("material", self.material), key);

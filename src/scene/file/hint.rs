@@ -12,10 +12,11 @@ pub fn hint<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
     let is_near = |&(distance, k): &(usize, &str)| {
         3 * distance <= name.chars().count().max(k.chars().count()).max(3)
     };
+    let quoted = |name: &&str| format!("`{}`", name.escape_debug());
     match distances.min_by_key(|&(distance, _)| distance).filter(is_near) {
-        Some((_, nearest)) => format!("; did you mean `{nearest}`?"),
+        Some((_, nearest)) => format!("; did you mean {}?", quoted(&nearest)),
         None if known.is_empty() => String::new(),
-        None => format!("; expected {}", one_of(known.iter().map(|k| format!("`{k}`")))),
+        None => format!("; expected {}", one_of(known.iter().map(quoted))),
     }
 }
 

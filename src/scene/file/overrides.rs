@@ -29,7 +29,7 @@ pub fn apply(root: &mut Node, text: &str, source: usize) -> Result<(), Fault> {
             if let Some(entry) = unknown {
                 return Err(fault(Problem::UnknownName {
                     kind: kind.clone(),
-                    name: entry.key.clone(),
+                    name: entry.key.escape_debug().to_string(),
                     hint: hint(&entry.key, known().map(|known| known.key.as_str())),
                 }));
             }

@@ -53,7 +53,7 @@ impl<'a> Section<'a> {
                 Some(kind) => format!("{} of type {}", self.title, kind.value),
                 None => self.title.clone(),
             };
-            let key = key.clone();
+            let key = key.escape_debug().to_string();
             Err(Fault { mark: *mark, problem: Problem::UnknownKey { key, table, hint } })
         })
     }

@@ -55,10 +55,10 @@ impl Node {
         let value = match value.get_ref() {
             DeValue::Boolean(value) => Value::Boolean(*value),
             DeValue::Integer(value) if value.radix() == 10 => Value::Number(value.as_str().into()),
-            // Digits are all that TOML lets stand here; more of them than fit make it NaN.
+            // One that does not even fit here stays as it is, which is no number to anyone.
             DeValue::Integer(value) => Value::Number(
                 u128::from_str_radix(value.as_str(), value.radix())
-                    .map_or("nan".into(), |value| value.to_string()),
+                    .map_or(value.to_string(), |value| value.to_string()),
             ),
             DeValue::Float(value) => Value::Number(value.as_str().into()),
             DeValue::String(value) => Value::Text(value.to_string()),

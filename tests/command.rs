@@ -1,0 +1,308 @@
+//! The command, run as its user runs it: what it says and writes, and what it says about bad input,
+//! word for word.
+//!
+//! Breaks that these tests caught, one at a time: outputs not checked before the render; an EXR without
+//! layers; `print!` for the summary, which panics when the pipe is closed; a film whose number of bytes
+//! overflows; exit code 0 for errors.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const SCENE: &str = r#"
+[camera]
+eye = [0, 1, -3]
+[film]
+resolution = [20, 10]
+[sampler]
+spp = 2
+[material.clay]
+type = "matte"
+[light.key]
+type = "point"
+position = [0, 3, -3]
+intensity = [9, 9, 9]
+[shape.wall]
+obj = "wall.obj"
+material = "clay"
+"#;
+
+const WALL: &str = "v -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\nv 9 9 9\nf 1 2 3\nf 1 3 4\nf 1 1 2\n";
+
+/// A folder of a test's own that holds `s.toml` and `wall.obj`, and nothing else.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(test: &str) -> Self {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("command").join(test);
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).unwrap();
+        let folder = Self(path);
+        folder.write("s.toml", SCENE);
+        folder.write("wall.obj", WALL);
+        folder
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.0.join(name), text).unwrap();
+    }
+
+    fn command<S: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = S>) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_lobe"));
+        command.current_dir(&self.0).args(arguments);
+        command
+    }
+
+    /// Runs the command in the folder, with words that blanks separate.
+    fn run(&self, arguments: &str) -> Output {
+        self.command(arguments.split_whitespace()).output().unwrap()
+    }
+
+    /// What the command prints when all goes well: then nothing comes on stderr.
+    #[track_caller]
+    fn prints(&self, arguments: &str) -> String {
+        let Output { status, stdout, stderr } = self.run(arguments);
+        assert_eq!(String::from_utf8(stderr).unwrap(), "");
+        assert!(status.success());
+        String::from_utf8(stdout).unwrap()
+    }
+
+    /// Asserts the whole of stderr, exit code 1, and that nothing is printed or left behind.
+    #[track_caller]
+    fn fails(&self, arguments: &str, message: &str) {
+        let before = self.files();
+        let Output { status, stdout, stderr } = self.run(arguments);
+        assert_eq!(String::from_utf8(stderr).unwrap(), format!("error: {message}\n"));
+        assert_eq!(String::from_utf8(stdout).unwrap(), "");
+        assert_eq!(status.code(), Some(1));
+        assert_eq!(self.files(), before);
+    }
+
+    fn files(&self) -> Vec<String> {
+        let entries = fs::read_dir(&self.0).unwrap();
+        let mut names: Vec<_> =
+            entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+}
+
+/// The first word of the value of a key in a summary.
+#[track_caller]
+fn value<'a>(summary: &'a str, key: &str) -> &'a str {
+    let mut lines = summary.lines().map(|line| line.split_whitespace());
+    let words = lines.find_map(|mut words| (words.next()? == key).then_some(words));
+    words.and_then(|mut words| words.next()).unwrap_or_else(|| panic!("no {key} in {summary}"))
+}
+
+#[test]
+fn render_writes_both_files_and_a_summary() {
+    let folder = Folder::new("render");
+    let summary = folder.prints("render s.toml --threads 2");
+    assert_eq!(folder.files(), ["s.exr", "s.png", "s.toml", "wall.obj"]);
+    assert!(fs::read(folder.0.join("s.png")).unwrap().starts_with(b"\x89PNG"));
+    let exr = fs::read(folder.0.join("s.exr")).unwrap();
+    assert!(exr.windows(9).any(|window| window == b"normal.X\0"));
+
+    assert_eq!(value(&summary, "scene"), "s.toml");
+    assert_eq!(value(&summary, "image"), "20x10");
+    assert_eq!(value(&summary, "samples"), "2");
+    assert_eq!(value(&summary, "triangles"), "3");
+    assert_eq!(value(&summary, "degenerate"), "1");
+    assert_eq!(value(&summary, "threads"), "2");
+    assert_eq!(value(&summary, "rays"), "400");
+    assert_eq!(value(&summary, "non-finite"), "0");
+    for key in ["load", "build", "render", "write", "speed"] {
+        assert!(value(&summary, key).parse::<f64>().unwrap() >= 0.0);
+    }
+    assert!(!summary.contains("rejected"));
+    let wrote: Vec<_> = summary.lines().filter(|line| line.starts_with("wrote")).collect();
+    assert_eq!(wrote, ["wrote       s.png", "wrote       s.exr"]);
+}
+
+#[test]
+fn render_writes_what_it_is_asked_for() {
+    let folder = Folder::new("outputs");
+    let summary =
+        folder.prints("render s.toml -o a.PNG --spp 5 --seed 7 --set film.crop=[1,2,4,4]");
+    assert_eq!(folder.files(), ["a.PNG", "s.toml", "wall.obj"]);
+    assert_eq!((value(&summary, "samples"), value(&summary, "rays")), ("5", "30"));
+    assert!(summary.contains("\ncrop        [1, 2, 4, 4]\n"), "{summary}");
+    let png = fs::read(folder.0.join("a.PNG")).unwrap();
+    assert!(png.windows(6).any(|window| window == b"Seed\x007"));
+
+    folder.prints("render s.toml -o b.png -o c.exr --quiet");
+    assert_eq!(folder.files(), ["a.PNG", "b.png", "c.exr", "s.toml", "wall.obj"]);
+}
+
+#[test]
+fn quiet_is_quiet() {
+    let folder = Folder::new("quiet");
+    assert_eq!(folder.prints("render s.toml --quiet"), "");
+    assert_eq!(folder.files(), ["s.exr", "s.png", "s.toml", "wall.obj"]);
+    folder.fails("render no.toml --quiet", "no.toml: there is no such file");
+}
+
+#[test]
+fn info_tells_what_is_there() {
+    let folder = Folder::new("info");
+    let summary = folder.prints("info s.toml --set camera.lens_radius=0.5 --set sampler.seed=3");
+    let (settings, rest) = summary.split_once("tree-memory").unwrap();
+    assert_eq!(
+        settings,
+        "scene        s.toml
+camera       [0, 1, -3] to [0, 0, 1], 90 degrees, lens radius 0.5, in focus at 1
+image        20x10 pixels
+display      srgb
+sampler      independent, 2 samples per pixel, seed 3
+integrator   chapter
+lights       1
+shape        wall: 3 triangles, 1 of them without area, 1 unused vertices
+triangles    3
+degenerate   1 triangles without area, left out
+bounds       [-2, -2, 0] to [2, 2, 0]
+nodes        1
+depth        1 nodes
+"
+    );
+    assert!(rest.contains("mesh-memory") && rest.contains("load") && rest.contains("build"));
+    assert_eq!(folder.files(), ["s.toml", "wall.obj"]);
+}
+
+#[test]
+fn help_teaches_by_examples() {
+    let folder = Folder::new("help");
+    for arguments in ["--help", "render --help", "info --help"] {
+        let help = folder.prints(arguments);
+        assert!(help.contains("Examples:\n  lobe "), "{help}");
+    }
+    assert!(folder.prints("--version").starts_with("lobe 0."));
+}
+
+#[test]
+fn usage_errors_have_exit_code_2() {
+    let folder = Folder::new("usage");
+    for arguments in
+        ["", "rneder s.toml", "render", "render s.toml --spp 0", "render s.toml --threads 0"]
+    {
+        let output = folder.run(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments}");
+        assert!(!output.stderr.is_empty());
+    }
+}
+
+#[test]
+fn a_closed_pipe_is_no_error() {
+    let folder = Folder::new("pipe");
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let output = folder.command(["info", "s.toml"]).stdout(writer).output().unwrap();
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
+    assert!(output.status.success());
+}
+
+#[test]
+fn bad_scenes() {
+    let folder = Folder::new("scenes");
+    folder.fails("render no.toml", "no.toml: there is no such file");
+    folder.fails("info .", ".: is a directory, expected a scene file");
+    let cases = [
+        ("[camera\n", "1:8: not valid TOML: unclosed table, expected `]`"),
+        ("[camera]\nfvo = 3", "2:1: unknown key `fvo` in [camera]; did you mean `fov`?"),
+        ("[camera]\nfov = \"3\"", "2:7: `camera.fov` is \"3\", expected a finite number"),
+        (
+            "[film]\nresolution = [0, 0]",
+            "2:14: the film's resolution is 0 x 0: both have to be at least 1",
+        ),
+        (
+            "[material.clay]\ntype = \"matte\"\n[shape.s]\nobj = \"wall.obj\"\nmaterial = \"cly\"",
+            "5:12: the scene has no material `cly`; did you mean `clay`?",
+        ),
+    ];
+    for (text, message) in cases {
+        folder.write("bad.toml", text);
+        folder.fails("render bad.toml", &format!("bad.toml:{message}"));
+        folder.fails("info bad.toml", &format!("bad.toml:{message}"));
+    }
+}
+
+#[test]
+fn bad_meshes() {
+    let folder = Folder::new("meshes");
+    let cases = [
+        ("", ": has no faces: expected at least one line such as \"f 1 2 3\", found no vertices"),
+        (
+            "v 0 0 0\nv 1 0 0\nf 1 2 3\n",
+            ":3: face refers to vertex 3, but the file has only 2 vertices",
+        ),
+        (
+            "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n",
+            ":2: vertex 2 is (1, NaN, 0), expected finite numbers",
+        ),
+    ];
+    for (mesh, message) in cases {
+        folder.write("wall.obj", mesh);
+        folder.fails("render s.toml", &format!("s.toml:15:7: wall.obj{message}"));
+    }
+    fs::remove_file(folder.0.join("wall.obj")).unwrap();
+    folder.fails("render s.toml", "s.toml:15:7: wall.obj: there is no such file");
+}
+
+#[test]
+fn bad_overrides() {
+    let folder = Folder::new("overrides");
+    folder.fails(
+        "render s.toml --set camera",
+        "--set camera: expected KEY=VALUE, as in camera.fov=40",
+    );
+    folder.fails(
+        "render s.toml --set shape.wal.scale=2",
+        "--set shape.wal.scale=2: the scene has no shape `wal`; did you mean `wall`?",
+    );
+    folder.fails(
+        "info s.toml --set camera.fvo=2",
+        "--set camera.fvo=2: unknown key `fvo` in [camera]; did you mean `fov`?",
+    );
+    folder.fails(
+        "render s.toml --set shape.wall.obj=no.obj",
+        "--set shape.wall.obj=no.obj: text as a value stands in quotes: --set 'shape.wall.obj=\"no.obj\"'",
+    );
+}
+
+#[test]
+fn an_image_beyond_memory() {
+    let folder = Folder::new("memory");
+    let advice = "of memory, which is not to be had: lower the film's resolution or set a crop";
+    folder.fails(
+        "render s.toml -o a.png --set film.resolution=[4000000,4000000]",
+        &format!("an image of 4000000 x 4000000 pixels needs about 1464843750 MiB {advice}"),
+    );
+    // More bytes than 64 bits can count.
+    folder.fails(
+        "render s.toml -o a.png --set film.resolution=[4294967295,4294967295]",
+        &format!(
+            "an image of 4294967295 x 4294967295 pixels needs about 17592186044415 MiB {advice}"
+        ),
+    );
+}
+
+#[test]
+fn outputs_are_checked_before_rendering() {
+    let folder = Folder::new("unwritable");
+    fs::create_dir(folder.0.join("folder.png")).unwrap();
+    // Checked later, the good one would be written by then.
+    let render = "render s.toml -o good.png -o";
+    folder.fails(
+        &format!("{render} a.jpg"),
+        "cannot write `a.jpg`: its name has to end in .png or .exr",
+    );
+    folder.fails(
+        &format!("{render} none/a.png"),
+        "cannot write `none/a.png`: there is no folder `none`; create it first",
+    );
+    folder.fails(
+        &format!("{render} folder.png"),
+        "cannot write `folder.png`: it is a folder; give the name of a file in it",
+    );
+}

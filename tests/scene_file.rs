@@ -1,0 +1,545 @@
+//! Scene files: what good ones give, and what is said about bad ones, word for word.
+//!
+//! Breaks that these tests caught, one at a time: columns counted from 0, and in bytes; a table whose
+//! keys are not checked; the nearest name taken however far it is; overrides that do not replace, or
+//! whose OBJ is looked for beside the scene; the translation applied before the scale.
+
+use std::path::{Path, PathBuf};
+
+use lobe::film::Window;
+use lobe::glam::{UVec2, Vec3};
+use lobe::scene::{
+    Display, IntegratorSettings, LoadedScene, SamplerKind, SceneFileError, parse_scene, read_scene,
+};
+
+/// A folder of this test's own with a triangle in it.
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("scene_file").join(test);
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("triangle.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    folder
+}
+
+fn parse(text: &str, overrides: &[&str]) -> Result<LoadedScene, SceneFileError> {
+    parse_scene("s.toml".as_ref(), text, overrides)
+}
+
+/// The message that a text and its overrides give.
+#[track_caller]
+fn refused(text: &str, overrides: &[&str]) -> String {
+    match parse(text, overrides) {
+        Err(error) => error.to_string(),
+        Ok(_) => panic!("accepted: {text} {overrides:?}"),
+    }
+}
+
+/// Asserts the whole messages of texts.
+#[track_caller]
+fn all_refused(cases: &[(&str, &str)]) {
+    for (text, message) in cases {
+        assert_eq!(refused(text, &[]), *message, "for {text:?}");
+    }
+}
+
+const GOOD: &str = r#"
+[camera]
+eye = [-3.0, 1.5, -3.0]
+look_at = [0.0, 0.0, 0]
+up = [0, 1, 0]
+fov = 60
+lens_radius = 0.02
+focal_distance = 3.0
+[film]
+resolution = [50, 0x28]
+crop = [10, 0, 50, 30]
+display = "exposure"
+[sampler]
+type = "stratified"
+spp = 16
+seed = 18446744073709551615
+[integrator]
+type = "chapter"
+highlight = true
+[texture.red]
+type = "constant"
+value = [0.8, 0.1, 0.2]
+[texture.rough]
+type = "constant"
+value = 20
+[material.cloth]
+type = "matte"
+kd = "red"
+sigma = "rough"
+bump = 0.5
+[light.key]
+type = "point"
+position = [10.0, 10.0, -10.0]
+intensity = [900.0, 900.0, 900.0]
+[shape.z]
+obj = "triangle.obj"
+material = "cloth"
+translate = [0.0, -1.5, 0.0]
+[shape."a b"]
+obj = "triangle.obj"
+material = "cloth"
+"#;
+
+#[test]
+fn a_file_gives_its_scene() {
+    let path = folder("good").join("scene.toml");
+    std::fs::write(&path, GOOD).unwrap();
+    let LoadedScene { scene, report } = read_scene(&path, &[]).unwrap();
+
+    let camera = scene.camera_settings();
+    assert_eq!(camera.eye, Vec3::new(-3.0, 1.5, -3.0));
+    assert_eq!((camera.look_at, camera.up), (Vec3::ZERO, Vec3::Y));
+    assert_eq!((camera.fov, camera.lens_radius, camera.focal_distance), (60.0, 0.02, 3.0));
+    let film = scene.film();
+    assert_eq!(film.resolution, UVec2::new(50, 40));
+    assert_eq!(film.crop, Some(Window { min: UVec2::new(10, 0), max: UVec2::new(50, 30) }));
+    assert_eq!(film.display, Display::Exposure);
+    let sampler = scene.sampler();
+    assert_eq!(sampler.kind, SamplerKind::Stratified);
+    assert_eq!((sampler.spp, sampler.seed), (16, u64::MAX));
+    assert_eq!(*scene.integrator(), IntegratorSettings::Chapter { highlight: true });
+    let light = scene.lights()[0].sample_li(Vec3::new(10.0, 10.0, 0.0), Default::default());
+    assert_eq!(light.unwrap().li.to_array(), [9.0; 3]);
+    // In the order of the file, not of the alphabet.
+    let shapes: Vec<_> = scene.shapes().map(|(name, mesh)| (name, mesh.positions[0].y)).collect();
+    assert_eq!(shapes, [("z", -1.5), ("a b", 0.0)]);
+    assert_eq!(report.meshes.len(), 2);
+    assert!(report.seconds > 0.0);
+}
+
+#[test]
+fn everything_has_a_default_in_an_empty_file() {
+    for text in ["", "\u{FEFF}", "[camera]\n[film]\n[sampler]\n[integrator]\n[shape]\n[light]\r\n"]
+    {
+        let scene = parse(text, &[]).unwrap().scene;
+        assert_eq!(*scene.camera_settings(), Default::default());
+        assert_eq!(*scene.film(), Default::default());
+        assert_eq!(*scene.sampler(), Default::default());
+        assert_eq!(*scene.integrator(), Default::default());
+        assert_eq!(scene.shapes().count(), 0);
+    }
+}
+
+#[test]
+fn a_shape_is_scaled_then_rotated_then_translated() {
+    let place = |transform: &str| {
+        let text = format!(
+            "[material.m]\ntype = \"matte\"\n[shape.s]\nobj = \"triangle.obj\"\nmaterial = \"m\"\n{transform}"
+        );
+        let path = folder("transform").join("scene.toml");
+        let scene = parse_scene(&path, &text, &[]).unwrap().scene;
+        let (_, mesh) = scene.shapes().next().unwrap();
+        mesh.positions[1]
+    };
+    assert_eq!(place(""), Vec3::X);
+    assert_eq!(place("scale = 2"), 2.0 * Vec3::X);
+    assert_eq!(place("scale = [3, 1, -1]"), 3.0 * Vec3::X);
+    // About +z from x to y, about +y from z to x.
+    assert!((place("rotate = [0, 0, 5, 90]") - Vec3::Y).length() < 1e-6);
+    assert!((place("rotate = [0, 1, 0, 90]") + Vec3::Z).length() < 1e-6);
+    let all = place("translate = [0, 0, 7]\nrotate = [0, 0, 1, 90]\nscale = [2, 9, 9]");
+    assert!((all - Vec3::new(0.0, 2.0, 7.0)).length() < 1e-5, "{all}");
+}
+
+#[test]
+fn text_that_is_not_toml() {
+    all_refused(&[
+        ("[camera\nfov = 3", "s.toml:1:8: not valid TOML: unclosed table, expected `]`"),
+        (
+            "[film]\ndisplay = srgb",
+            "s.toml:2:11: not valid TOML: string values must be quoted, expected literal string",
+        ),
+        ("[film]\n[film]", "s.toml:2:2: not valid TOML: duplicate key"),
+    ]);
+    let deep = format!("a = {}", "[".repeat(100_000));
+    assert_eq!(
+        refused(&deep, &[]),
+        "s.toml:1:85: not valid TOML: cannot recurse further; max recursion depth met"
+    );
+    let path = folder("latin").join("scene.toml");
+    std::fs::write(&path, b"# \xC3\xA9\n# \xE9\n").unwrap();
+    let error = read_scene(&path, &[]).err().unwrap().to_string();
+    assert_eq!(error, format!("{}:2:3: not valid TOML: the text is not UTF-8", path.display()));
+}
+
+#[test]
+fn unknown_keys() {
+    all_refused(&[
+        // A message is one line, whatever the text.
+        (
+            "[camera]\n\"a\\nb\" = 3",
+            "s.toml:2:1: unknown key `a\\nb` in [camera]; expected `eye`, `look_at`, `up`, `fov`, `lens_radius` or `focal_distance`",
+        ),
+        ("[camera]\nfvo = 3", "s.toml:2:1: unknown key `fvo` in [camera]; did you mean `fov`?"),
+        ("[camrea]", "s.toml:1:2: unknown key `camrea` in the scene; did you mean `camera`?"),
+        (
+            "camera = { eye = \"é\", width = 2 }",
+            "s.toml:1:23: unknown key `width` in [camera]; expected `eye`, `look_at`, `up`, `fov`, `lens_radius` or `focal_distance`",
+        ),
+        (
+            "[film]\n  Display = 1",
+            "s.toml:2:3: unknown key `Display` in [film]; did you mean `display`?",
+        ),
+        ("[sampler]\nssp = 1", "s.toml:2:1: unknown key `ssp` in [sampler]; did you mean `spp`?"),
+        (
+            "[integrator]\nhighligth = true",
+            "s.toml:2:1: unknown key `highligth` in [integrator]; did you mean `highlight`?",
+        ),
+        (
+            "[integrator]\ntype = \"direct\"\nhighlight = true",
+            "s.toml:3:1: unknown key `highlight` in [integrator] of type \"direct\"; expected `type`",
+        ),
+        (
+            "[texture.t]\ntype = \"constant\"\nvalve = 1",
+            "s.toml:3:1: unknown key `valve` in [texture.t] of type \"constant\"; did you mean `value`?",
+        ),
+        (
+            "[material.m]\ntype = \"matte\"\nkb = 1",
+            "s.toml:3:1: unknown key `kb` in [material.m] of type \"matte\"; did you mean `kd`?",
+        ),
+        (
+            "[light.l]\ntype = \"point\"\npositon = 1",
+            "s.toml:3:1: unknown key `positon` in [light.l] of type \"point\"; did you mean `position`?",
+        ),
+        (
+            "[shape.\"a b\"]\nobi = 1",
+            "s.toml:2:1: unknown key `obi` in [shape.\"a b\"]; did you mean `obj`?",
+        ),
+    ]);
+}
+
+#[test]
+fn missing_keys() {
+    all_refused(&[
+        ("[texture.t]", "s.toml:1:1: [texture.t] lacks `type`, expected \"constant\""),
+        (
+            "\n[texture.t]\ntype = \"constant\"",
+            "s.toml:2:1: [texture.t] lacks `value`, expected a number or [red, green, blue], all finite",
+        ),
+        ("[material.m]", "s.toml:1:1: [material.m] lacks `type`, expected \"matte\""),
+        ("[light.l]", "s.toml:1:1: [light.l] lacks `type`, expected \"point\""),
+        (
+            "[light.l]\ntype = \"point\"\nintensity = [1, 1, 1]",
+            "s.toml:1:1: [light.l] lacks `position`, expected an array of 3, each a finite number",
+        ),
+        (
+            "[light.l]\ntype = \"point\"\nposition = [1, 1, 1]",
+            "s.toml:1:1: [light.l] lacks `intensity`, expected [red, green, blue], each a finite number of at least 0",
+        ),
+        (
+            "[shape.s]\nmaterial = \"m\"",
+            "s.toml:1:1: [shape.s] lacks `obj`, expected a text in quotes",
+        ),
+        (
+            "[shape.s]\nobj = \"a.obj\"",
+            "s.toml:1:1: [shape.s] lacks `material`, expected a text in quotes",
+        ),
+    ]);
+}
+
+#[test]
+fn wrong_types() {
+    all_refused(&[
+        ("camera = 3", "s.toml:1:10: `camera` is 3, expected a table"),
+        ("[[shape]]", "s.toml:1:1: `shape` is [a table], expected a table"),
+        ("[shape]\ns = \"x.obj\"", "s.toml:2:5: `shape.s` is \"x.obj\", expected a table"),
+        (
+            "[camera]\nfov = \"wide\"",
+            "s.toml:2:7: `camera.fov` is \"wide\", expected a finite number",
+        ),
+        (
+            "[camera]\neye = [1, true, 3]",
+            "s.toml:2:7: `camera.eye` is [1, true, 3], expected an array of 3, each a finite number",
+        ),
+        (
+            "[camera]\nup = [0, 1]",
+            "s.toml:2:6: `camera.up` is [0, 1], expected an array of 3, each a finite number",
+        ),
+        (
+            "[camera]\nup = 1979-05-27",
+            "s.toml:2:6: `camera.up` is 1979-05-27, expected an array of 3, each a finite number",
+        ),
+        (
+            "[film]\ndisplay = \"sRGB\"",
+            "s.toml:2:11: `film.display` is \"sRGB\", expected \"srgb\" or \"exposure\"",
+        ),
+        (
+            "[sampler]\ntype = \"sobol\"",
+            "s.toml:2:8: `sampler.type` is \"sobol\", expected \"independent\" or \"stratified\"",
+        ),
+        (
+            "[sampler]\nspp = 1.5",
+            "s.toml:2:7: `sampler.spp` is 1.5, expected a whole number from 0 to 4294967295",
+        ),
+        (
+            "[sampler]\nseed = -1",
+            "s.toml:2:8: `sampler.seed` is -1, expected a whole number from 0 to 18446744073709551615",
+        ),
+        (
+            "[integrator]\nhighlight = 1",
+            "s.toml:2:13: `integrator.highlight` is 1, expected true or false",
+        ),
+        (
+            "[integrator]\ntype = \"path\"",
+            "s.toml:2:8: `integrator.type` is \"path\", expected \"chapter\" or \"direct\"",
+        ),
+        (
+            "[material.m]\ntype = \"matte\"\nkd = true",
+            "s.toml:3:6: `material.m.kd` is true, expected a texture's name, a number or [red, green, blue], all finite",
+        ),
+        ("[shape.s]\nobj = 3", "s.toml:2:7: `shape.s.obj` is 3, expected a text in quotes"),
+    ]);
+    let long = format!("[camera]\nfov = \"{}\"", "ü".repeat(100));
+    let found = format!("\"{}…", "ü".repeat(58));
+    let message = format!("s.toml:2:7: `camera.fov` is {found}, expected a finite number");
+    assert_eq!(refused(&long, &[]), message);
+}
+
+#[test]
+fn values_out_of_range() {
+    all_refused(&[
+        (
+            "[camera]\nfov = 180",
+            "s.toml:2:7: the camera's fov is 180 degrees: it has to be above 0 and below 180",
+        ),
+        ("[camera]\nfov = nan", "s.toml:2:7: `camera.fov` is nan, expected a finite number"),
+        ("[camera]\nfov = 1e39", "s.toml:2:7: `camera.fov` is 1e39, expected a finite number"),
+        (
+            "[camera]\neye = [0, -inf, 0]",
+            "s.toml:2:7: `camera.eye` is [0, -inf, 0], expected an array of 3, each a finite number",
+        ),
+        (
+            "[camera]\nlens_radius = -1",
+            "s.toml:2:15: the camera's lens_radius is -1: it cannot be negative",
+        ),
+        (
+            "[camera]\nfocal_distance = 0",
+            "s.toml:2:18: the camera's focal_distance is 0: it has to be above 0",
+        ),
+        (
+            "\n[camera]\neye = [0, 0, 1]",
+            "s.toml:2:1: the camera's eye and look_at are the same point, so it looks nowhere",
+        ),
+        (
+            "[camera]\nup = [0, 0, 2]",
+            "s.toml:2:6: the camera's up is zero or points along its view, so which side is up is open",
+        ),
+        (
+            "[film]\nresolution = [0, 5]",
+            "s.toml:2:14: the film's resolution is 0 x 5: both have to be at least 1",
+        ),
+        (
+            "[film]\nresolution = [4294967296, 5]",
+            "s.toml:2:14: `film.resolution` is [4294967296, 5], expected an array of 2, each a whole number from 0 to 4294967295",
+        ),
+        (
+            "[film]\ncrop = [0, 0, 501, 500]",
+            "s.toml:2:8: the film's crop [0, 0, 501, 500] is empty or reaches beyond its resolution of 500 x 500",
+        ),
+        (
+            "[film]\ncrop = [9, 0, 8, 500]",
+            "s.toml:2:8: the film's crop [9, 0, 8, 500] is empty or reaches beyond its resolution of 500 x 500",
+        ),
+        ("[sampler]\nspp = 0", "s.toml:2:7: the sampler's spp is 0: it has to be at least 1"),
+        (
+            "[sampler]\nseed = 0xFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFF",
+            "s.toml:2:8: `sampler.seed` is 0xFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFF, expected a whole number from 0 to 18446744073709551615",
+        ),
+        (
+            "[material.m]\ntype = \"matte\"\nkd = [1, 1.1, 1]",
+            "s.toml:3:6: `material.m.kd` is [1, 1.1, 1], expected [red, green, blue], each from 0 to 1",
+        ),
+        (
+            "[material.m]\ntype = \"matte\"\nsigma = 91",
+            "s.toml:3:9: `material.m.sigma` is 91, expected degrees from 0 to 90",
+        ),
+        (
+            "[light.l]\ntype = \"point\"\nposition = [0, 0, 0]\nintensity = [1, 1, -1]",
+            "s.toml:4:13: `light.l.intensity` is [1, 1, -1], expected [red, green, blue], each a finite number of at least 0",
+        ),
+        (
+            "[shape.s]\nscale = [1, 0, 1]",
+            "s.toml:2:9: `shape.s.scale` is [1, 0, 1], expected a number or [x, y, z], finite and not 0",
+        ),
+        (
+            "[shape.s]\nrotate = [0, 0, 0, 90]",
+            "s.toml:2:10: `shape.s.rotate` is [0, 0, 0, 90], expected [x, y, z, degrees], an axis that is not 0 and an angle, all finite",
+        ),
+    ]);
+}
+
+#[test]
+fn names_of_nothing() {
+    let with = |rest: &str| {
+        format!(
+            "texture.red = {{ type = \"constant\", value = [1, 0, 0] }}\n\
+             texture.rough = {{ type = \"constant\", value = 95 }}\n\
+             material.mat = {{ type = \"matte\", {rest} }}\n\
+             [shape.s]\nobj = \"none.obj\"\nmaterial = \"mta\""
+        )
+    };
+    let cases = [
+        ("kd = \"rde\"", "s.toml:3:39: the scene has no texture `rde`; did you mean `red`?"),
+        ("kd = \"\"", "s.toml:3:39: the scene has no texture ``; expected `red` or `rough`"),
+        (
+            "bump = \"red\"",
+            "s.toml:3:41: `material.mat.bump` is the texture \"red\", [1, 0, 0], expected a number",
+        ),
+        (
+            "kd = \"rough\"",
+            "s.toml:3:39: `material.mat.kd` is the texture \"rough\", 95, expected [red, green, blue], each from 0 to 1",
+        ),
+        (
+            "sigma = \"rough\"",
+            "s.toml:3:42: `material.mat.sigma` is the texture \"rough\", 95, expected degrees from 0 to 90",
+        ),
+        // The mesh is not there either, but meshes come last.
+        ("bump = 1", "s.toml:6:12: the scene has no material `mta`; did you mean `mat`?"),
+    ];
+    for (rest, message) in cases {
+        assert_eq!(refused(&with(rest), &[]), message);
+    }
+    all_refused(&[(
+        "[shape.s]\nobj = \"none.obj\"\nmaterial = \"m\"",
+        "s.toml:3:12: the scene has no material `m`",
+    )]);
+}
+
+#[test]
+fn meshes_that_cannot_be_read() {
+    let folder = folder("meshes");
+    std::fs::write(folder.join("bad.obj"), "v 0 0 0\nf 1 2 3\n").unwrap();
+    let scene = folder.join("scene.toml");
+    let message = |shape: &str| {
+        let text = format!("[material.m]\ntype = \"matte\"\n[shape.s]\nmaterial = \"m\"\n{shape}");
+        let error = parse_scene(&scene, &text, &[]).err().unwrap().to_string();
+        error.replace(&format!("{}{}", folder.display(), std::path::MAIN_SEPARATOR), "")
+    };
+    assert_eq!(message("obj = \"no.obj\""), "scene.toml:5:7: no.obj: there is no such file");
+    assert_eq!(
+        message("obj = \"bad.obj\""),
+        "scene.toml:5:7: bad.obj:2: face refers to vertex 2, but the file has only 1 vertex"
+    );
+    assert_eq!(
+        message("obj = \"triangle.obj\"\nscale = 1e38\ntranslate = [3.4e38, 0, 0]"),
+        "scene.toml:3:1: shape \"s\": vertex 1 is at [inf, 0, 0], expected finite coordinates"
+    );
+}
+
+#[test]
+fn overrides_replace_and_add_values() {
+    let path = folder("overrides").join("scene.toml");
+    let scene = |overrides: &[&str]| parse_scene(&path, GOOD, overrides).unwrap().scene;
+    assert_eq!(scene(&["camera.fov=40"]).camera_settings().fov, 40.0);
+    assert_eq!(scene(&["camera.fov=40", " camera . fov = 41 # "]).camera_settings().fov, 41.0);
+    assert_eq!(scene(&["sampler={seed=3}"]).sampler().seed, 3);
+    // What the file leaves out: of a shape, and of a table that it has not got either.
+    let scaled = scene(&["shape.z.scale=2", "shape.'a b'.translate=[0,0,1]"]);
+    let places: Vec<_> = scaled.shapes().map(|(_, mesh)| mesh.positions[1]).collect();
+    assert_eq!(places, [Vec3::new(2.0, -1.5, 0.0), Vec3::new(1.0, 0.0, 1.0)]);
+    assert_eq!(parse("", &["film.crop=[0,0,3,2]"]).unwrap().scene.film().window().area(), 6);
+}
+
+#[test]
+fn an_obj_in_an_override_is_relative_to_the_current_directory() {
+    // Tests run in the folder of the package.
+    let path = folder("relative").join("scene.toml");
+    let set = ["shape.z.obj='assets/floor.obj'"];
+    let scene = parse_scene(&path, GOOD, &set).unwrap().scene;
+    assert_eq!(scene.shapes().map(|(_, mesh)| mesh.indices.len()).collect::<Vec<_>>(), [2, 1]);
+    let error = parse_scene(&path, GOOD, &["shape.z.obj='triangle.obj'"]).err().unwrap();
+    assert_eq!(
+        error.to_string(),
+        "--set shape.z.obj='triangle.obj': triangle.obj: there is no such file"
+    );
+}
+
+#[test]
+fn bad_overrides() {
+    let cases = [
+        ("", "--set '': expected KEY=VALUE, as in camera.fov=40"),
+        ("camera.fov", "--set camera.fov: expected KEY=VALUE, as in camera.fov=40"),
+        ("camera={}", "--set camera={}: expected KEY=VALUE, as in camera.fov=40"),
+        ("#a=b", "--set #a=b: expected KEY=VALUE, as in camera.fov=40"),
+        (
+            "camera.fvo=40",
+            "--set camera.fvo=40: unknown key `fvo` in [camera]; did you mean `fov`?",
+        ),
+        (
+            "camrea.fov=40",
+            "--set camrea.fov=40: unknown key `camrea` in the scene; did you mean `camera`?",
+        ),
+        (
+            "fov=40",
+            "--set fov=40: unknown key `fov` in the scene; expected `camera`, `film`, `sampler`, `integrator`, `texture`, `material`, `light` or `shape`",
+        ),
+        (
+            "shape.zz.scale=2",
+            "--set shape.zz.scale=2: the scene has no shape `zz`; did you mean `z`?",
+        ),
+        (
+            "light.kye.type='point'",
+            "--set light.kye.type='point': the scene has no light `kye`; did you mean `key`?",
+        ),
+        (
+            "camera.fov=200",
+            "--set camera.fov=200: the camera's fov is 200 degrees: it has to be above 0 and below 180",
+        ),
+        ("camera=3", "--set camera=3: `camera` is 3, expected a table"),
+        (
+            "camera.fov.x=3",
+            "--set camera.fov.x=3: `camera.fov` is a table, expected a finite number",
+        ),
+        (
+            "camera.fov=1=2",
+            "--set camera.fov=1=2: not valid TOML: unexpected key or value, expected newline, `#`",
+        ),
+        (
+            "film.display=srgb",
+            "--set film.display=srgb: text as a value stands in quotes: --set 'film.display=\"srgb\"'",
+        ),
+        (
+            "shape.z.obj=../a b.obj",
+            "--set shape.z.obj=../a b.obj: text as a value stands in quotes: --set 'shape.z.obj=\"../a b.obj\"'",
+        ),
+        (
+            "shape.z.material='clot'",
+            "--set shape.z.material='clot': the scene has no material `clot`; did you mean `cloth`?",
+        ),
+        (
+            "material.cloth.kd='rde'",
+            "--set material.cloth.kd='rde': the scene has no texture `rde`; did you mean `red`?",
+        ),
+    ];
+    for (set, message) in cases {
+        assert_eq!(refused(GOOD, &[set]), message);
+    }
+    assert_eq!(
+        refused("", &["shape.s.scale=2"]),
+        "--set shape.s.scale=2: the scene has no shape `s`"
+    );
+}
+
+#[test]
+fn files_that_cannot_be_read() {
+    let folder = folder("unreadable");
+    let message = |path: &Path| read_scene(path, &[]).err().unwrap().to_string();
+    assert_eq!(message("no such.toml".as_ref()), "no such.toml: there is no such file");
+    let name = folder.display();
+    assert_eq!(message(&folder), format!("{name}: is a directory, expected a scene file"));
+}
+
+/// The scenes of the project, but for the dragon's mesh.
+#[test]
+fn the_scenes_in_assets_are_good() {
+    for name in ["chapter8", "chapter8-highlight", "dragon"] {
+        let path = PathBuf::from(format!("assets/{name}.toml"));
+        let set = ["shape.dragon.obj='assets/floor.obj'"];
+        let loaded = read_scene(&path, &set).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(loaded.scene.accel().triangle_count(), 4);
+    }
+}
