@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use crate::geometry::float::ONE_MINUS_EPSILON;
-use crate::geometry::{BoundedPoint, Frame, Ray};
+use crate::geometry::{BoundedPoint, Frame, Ray, unit_cross};
 use crate::shape::{TriangleMesh, triangle_normal};
 
 /// How position and normal change with the texture coordinates (u, v).
@@ -83,7 +83,7 @@ impl<'a> SurfaceInteraction<'a> {
     /// A hit on a surface of any kind: the point with the bounds of its error, texture coordinates,
     /// the unit direction towards the viewer, and the derivatives. The normal is ∂p/∂u × ∂p/∂v.
     pub fn new(p: BoundedPoint, uv: Vec2, wo: Vec3, partials: Partials) -> Self {
-        let n = partials.dpdu.cross(partials.dpdv).normalize_or(wo);
+        let n = unit_cross(partials.dpdu, partials.dpdv).unwrap_or(wo);
         Self {
             p: p.p,
             wo,
@@ -187,7 +187,7 @@ impl<'a> SurfaceInteraction<'a> {
             Source::Given { .. } => [dndu, dndv],
         };
         let [mut dpdu, mut dpdv] = [dpdu, dpdv].map(|v| v - n * n.dot(v));
-        if dpdu.cross(dpdv).try_normalize().is_none() {
+        if unit_cross(dpdu, dpdv).is_none() {
             let frame = Frame::from_normal(n);
             (dpdu, dpdv) = (frame.s, frame.t);
         }

@@ -1,10 +1,10 @@
 //! [`TriangleMesh`]: the one kind of shape.
 
-use glam::{Affine3A, Vec2, Vec3};
+use glam::{Affine3A, DMat3, DVec3, Vec2, Vec3};
 
 use super::triangle_normal;
-use crate::geometry::Frame;
 use crate::geometry::float::gamma;
+use crate::geometry::{Frame, unit_cross};
 
 /// Triangles that share their vertices.
 ///
@@ -66,12 +66,10 @@ impl TriangleMesh {
     pub fn position_partials(&self, triangle: usize) -> [Vec3; 2] {
         let [p0, p1, p2] = self.corners(triangle);
         let solved = self.solve_uv(triangle, p0 - p2, p1 - p2);
-        solved.filter(|[dpdu, dpdv]| dpdu.cross(*dpdv).try_normalize().is_some()).unwrap_or_else(
-            || {
-                let frame = Frame::from_normal(self.geometric_normal(triangle));
-                [frame.s, frame.t]
-            },
-        )
+        solved.filter(|[dpdu, dpdv]| unit_cross(*dpdu, *dpdv).is_some()).unwrap_or_else(|| {
+            let frame = Frame::from_normal(self.geometric_normal(triangle));
+            [frame.s, frame.t]
+        })
     }
 
     /// ∂n/∂u and ∂n/∂v of a triangle's vertex normals; zero without them, or without usable
@@ -88,14 +86,15 @@ impl TriangleMesh {
         for p in &mut self.positions {
             *p = transform.transform_point3(*p);
         }
-        // Normals go with the inverse transpose, which is the cofactor matrix but for a factor:
-        // it exists even when the inverse does not.
-        let [x, y, z] = [transform.x_axis, transform.y_axis, transform.z_axis].map(Vec3::from);
+        // Normals go with the inverse transpose, which is the cofactor matrix but for a factor: it exists
+        // even when the inverse does not. Its products leave the range of f32.
+        let [x, y, z]: [DVec3; 3] =
+            [transform.x_axis, transform.y_axis, transform.z_axis].map(|v| Vec3::from(v).into());
         let mirrored = x.cross(y).dot(z) < 0.0;
         let sign = if mirrored { -1.0 } else { 1.0 };
+        let cofactors = sign * DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
         for n in &mut self.normals {
-            *n = (sign * (y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z))
-                .normalize_or_zero();
+            *n = (cofactors * n.as_dvec3()).normalize_or_zero().as_vec3();
         }
         if mirrored {
             self.indices.iter_mut().for_each(|corners| corners.swap(1, 2));

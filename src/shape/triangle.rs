@@ -9,10 +9,13 @@ use crate::geometry::float::gamma;
 /// a triangle without area.
 #[inline]
 pub fn triangle_normal([p0, p1, p2]: [Vec3; 3]) -> Vec3 {
-    let n = (p1 - p0).cross(p2 - p0);
+    let (e1, e2) = (p1 - p0, p2 - p0);
+    let n = e1.cross(e2);
     let length2 = n.length_squared();
-    // The square of a very small or large product leaves the range of f32 or loses digits in it.
-    if length2 > f32::MIN_POSITIVE / f32::EPSILON && length2 < f32::INFINITY {
+    // The products cancel where the edges run along each other: below a sine of 1/10, f64 is asked. So it
+    // is where squares leave the range of f32 or lose digits in it.
+    let wide = length2 > 0.01 * e1.length_squared() * e2.length_squared();
+    if wide && length2 > f32::MIN_POSITIVE / f32::EPSILON && length2 < f32::INFINITY {
         return n / length2.sqrt();
     }
     let [p0, p1, p2]: [DVec3; 3] = [p0, p1, p2].map(DVec3::from);

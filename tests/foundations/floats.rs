@@ -5,6 +5,7 @@ use lobe::geometry::float::{ONE_MINUS_EPSILON, UNIT_ROUNDOFF, gamma};
 use lobe::glam::{DVec3, Vec3};
 
 use crate::common::Rng;
+use crate::common::meshes::single;
 
 /// n rounded products and quotients in a row stay within γₙ of the exact value. Caught: n u in place of
 /// n u / (1 - n u) for long rows of truncations; half of it for short ones.
@@ -66,6 +67,26 @@ fn neighbours_of_floats() {
         assert_eq!(x.next_up().next_down(), x);
         let middle = 0.5 * (f64::from(x) + f64::from(x.next_up()));
         assert!(middle as f32 == x || middle as f32 == x.next_up(), "{x} has a float between");
+    }
+}
+
+/// The normals of triangles up to a million times as long as they are wide, anywhere and of any size, to
+/// 1e-5. Caught: a cross product in f32, whose rounding error is all that is left of it for slivers.
+#[test]
+fn normals_of_slivers_keep_their_digits() {
+    for trial in 0..300_000 {
+        let mut rng = Rng::new(704, trial);
+        let (size, width) = (rng.coordinate(8.0), 10.0_f32.powf(-6.0 * rng.f32()));
+        let at = rng.direction() * 10.0_f32.powf(2.0 * rng.f32() - 1.0);
+        let along = rng.direction();
+        let corners = [Vec3::ZERO, along, along * rng.f32() + width * rng.direction()];
+        let mut corners = corners.map(|p| size * (at + p));
+        corners.rotate_left(rng.below(3));
+        let [a, b, c] = corners.map(|p| p.as_dvec3());
+        let Some(truth) = (b - a).cross(c - a).try_normalize() else { continue };
+        let n = single(corners).geometric_normal(0);
+        let error = (n.as_dvec3() - truth).length();
+        assert!(error < 1e-5, "trial {trial}: {corners:?} has {n}, expected {truth}");
     }
 }
 

@@ -124,13 +124,43 @@ fn mirrored_texture_coordinates_give_the_same_normal() {
         let (triangle, b) = (rng.below(2), rng.barycentric());
         let normal = |du: f32, phase: f64| {
             let mesh = plane(1.0, 0.0, du);
-            let waves = Waves { height: 0.1, frequency: 5.0 * f64::from(du), at: phase };
+            let waves = Waves { height: 0.1, frequency: 3.0 * f64::from(du), at: phase };
             let mut si = SurfaceInteraction::on_triangle(&mesh, triangle, b, Vec3::Z);
             bump(&waves.into(), &mut si);
             si.shading_n()
         };
         let (there, mirrored) = (normal(1.0, 0.3), normal(-1.0, -0.3));
         assert!(there.distance(mirrored) < 1e-3, "trial {trial}: {there} and {mirrored}");
+    }
+}
+
+/// A displacement may ask for the normal, which moves along: with d = c n.x, ∂d/∂u is c ∂n.x/∂u. Caught: the
+/// normal of the place moved to made from ∂p/∂u × ∂p/∂v, which on a small mesh is nothing beside ∂n/∂u.
+#[test]
+fn a_displacement_may_ask_for_the_normal() {
+    struct OfNormal(f32);
+    impl Texture<f32> for OfNormal {
+        fn evaluate(&self, si: &SurfaceInteraction) -> f32 {
+            self.0 * si.shading_n().x
+        }
+    }
+    for size in [1e-4, 1.0, 1e4] {
+        let mut mesh = plane(size, 0.0, 1.0);
+        let tilted = Vec3::new(0.3, 0.0, 1.0).normalize();
+        mesh.normals = vec![Vec3::Z, tilted, tilted, Vec3::Z];
+        // In the middle, so that n changes across the direction in which it is normalised.
+        let mut si = SurfaceInteraction::on_triangle(&mesh, 0, [0.5, 0.0, 0.5], Vec3::Z);
+        let before = si.shading();
+        let [n, dpdu, dpdv, dndu] =
+            [before.n, before.dpdu, before.dpdv, before.dndu].map(|v| v.as_dvec3());
+        let c = 0.1 * f64::from(size);
+        // n is normalised where it is looked at: only what changes across it counts.
+        let slope = c * (dndu - n * n.dot(dndu)).x;
+        let displaced = dpdu + slope * n + c * n.x * dndu;
+        let truth = displaced.cross(dpdv).normalize();
+        bump(&Arc::new(OfNormal(c as f32)).into(), &mut si);
+        let error = (si.shading_n().as_dvec3() - truth).length();
+        assert!(error < 1e-3, "size {size}: {}, expected {truth}", si.shading_n());
     }
 }
 
