@@ -107,7 +107,8 @@ fn brewster_and_critical_angle() {
 }
 
 /// Against f64, from the pole to the horizon, with angles down to 1e-30. Caught: sin² as 1 - cos², which
-/// is 0 below an angle of 2e-4; sin θ as the root of an underflowing square; the clamps left out.
+/// is 0 below an angle of 2e-4; sin θ as the root of an underflowing square; the clamp of cos Δφ
+/// left out.
 #[test]
 fn trigonometry() {
     for trial in 0..200_000 {
@@ -166,6 +167,9 @@ fn trigonometry() {
             "{}: {found}, expected {truth}",
             what("cos Δφ")
         );
+        // Directions of the same azimuth: the quotient of equal numbers is rounded.
+        let along = Vec3::new(0.3 * w.x, 0.3 * w.y, w.z);
+        assert!(cos_d_phi(w, along) <= 1.0 && cos_d_phi(w, -along) >= -1.0, "{}", what("cos Δφ"));
         assert_eq!(same_hemisphere(w, v), z * f64::from(v.z) > 0.0, "{}", what("side"));
     }
 }

@@ -56,8 +56,7 @@ fn triangles_without_area_are_not_hit() {
     }
 }
 
-/// One triangle is a tree too. Caught: the leaf in both children, which is seen in the count of nodes only
-/// and costs time; its box swapped with the empty one.
+/// One triangle is a tree too. Caught: its box left empty.
 #[test]
 fn one_triangle_is_hit() {
     for trial in 0..20_000 {

@@ -1,5 +1,6 @@
 //! Rays that leave a triangle do not hit it.
 
+use lobe::TriangleMesh;
 use lobe::accel::Accel;
 use lobe::geometry::Ray;
 use lobe::glam::Vec3;
@@ -19,8 +20,8 @@ fn hit(rng: &mut Rng, accel: &Accel, corners: [Vec3; 3]) -> Option<(Ray, [f32; 3
 }
 
 /// 1000 triangles with coordinates 10^U(-8, 8), from each 10,000 rays from ten hits: half of them to a
-/// direction, a few along the surface, half of them to a point. Caught: the error bound divided by 16;
-/// the origin moved to the wrong side; the origin not moved at all.
+/// direction, a few along the surface, half of them to a point. Caught: the origin moved to the wrong side;
+/// rays to a point that run from the moved origin straight to it; the bound on the error of t left out.
 #[test]
 fn no_triangle_hits_itself() {
     let (mut spawned, mut triangles) = (0, 0);
@@ -56,4 +57,50 @@ fn no_triangle_hits_itself() {
         }
     }
     assert!(spawned > 5_000_000, "only {spawned} rays");
+}
+
+/// Rays that leave a plane do not hit its other triangles. The corners are whole numbers, so that they lie
+/// in one plane exactly; far from the origin, points between them do not. Half of the rays start on edges
+/// and corners, and half leave along the surface. Caught: the origin not moved, or by a sixteenth.
+#[test]
+fn no_triangle_hits_its_neighbours() {
+    const SIDE: u32 = 32;
+    for (number, offset) in [0.0, 1e3, 1e5].into_iter().enumerate() {
+        let mut mesh = TriangleMesh::default();
+        let corner = Vec3::new(offset, -3.0 * offset, 2.0 * offset);
+        let (across, along) = (Vec3::new(3.0, 1.0, 2.0), Vec3::new(-1.0, 4.0, 1.0));
+        for place in 0..(SIDE + 1) * (SIDE + 1) {
+            let (i, j) = ((place % (SIDE + 1)) as f32, (place / (SIDE + 1)) as f32);
+            mesh.positions.push(corner + i * across + j * along);
+        }
+        for cell in 0..SIDE * SIDE {
+            let a = cell % SIDE + cell / SIDE * (SIDE + 1);
+            let (b, c, d) = (a + 1, a + SIDE + 1, a + SIDE + 2);
+            mesh.indices.extend([[a, b, d], [a, d, c]]);
+        }
+        let n = across.as_dvec3().cross(along.as_dvec3()).normalize();
+        let accel = Accel::build(std::slice::from_ref(&mesh));
+        for trial in 0..300_000 {
+            let mut rng = Rng::new(821 + number as u64, trial);
+            let mut b = rng.barycentric();
+            match rng.below(4) {
+                0 => b = [b[0], 1.0 - b[0], 0.0],
+                1 => b = [0.0, 1.0, 0.0],
+                _ => {}
+            }
+            let mut w = rng.direction_f64();
+            if rng.below(2) == 0 {
+                w = (w - w.dot(n) * n * (1.0 - 10.0_f64.powf(-6.0 * rng.f64()))).normalize();
+            }
+            let w = w.as_vec3();
+            // A direction that rounding has laid into the plane leaves to either side.
+            if w.as_dvec3().dot(n).abs() < 2e-7 {
+                continue;
+            }
+            let triangle = rng.below(mesh.indices.len());
+            let si = SurfaceInteraction::on_triangle(&mesh, triangle, b, w);
+            let hit = accel.intersect1(&si.spawn_ray(w));
+            assert!(!hit.is_hit(), "offset {offset}, trial {trial}: {w} from {}: {hit:?}", si.p());
+        }
+    }
 }
