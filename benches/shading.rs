@@ -21,7 +21,7 @@ use lobe::geometry::{Frame, Ray};
 use lobe::glam::{Vec2, Vec3};
 use lobe::interaction::SurfaceInteraction;
 use lobe::material::Material;
-use lobe::sampling::{uniform_hemisphere, uniform_triangle};
+use lobe::sampling::{cosine_hemisphere, uniform_hemisphere, uniform_triangle};
 use lobe::texture::{ConstantTexture, TextureHandle};
 use lobe::{MatteMaterial, PointLight, Scene, Spectrum, TriangleMesh};
 use smallbox::SmallBox;
@@ -36,6 +36,7 @@ const LIGHT: Vec3 = Vec3::new(10.0, 10.0, -10.0);
 struct Sample {
     ray: Ray,
     hit: Hit,
+    number: usize,
     frame: Frame,
     wo: Vec3,
     wi: Vec3,
@@ -55,7 +56,7 @@ fn pool(mesh: &TriangleMesh) -> Vec<Sample> {
             let b = uniform_triangle::sample(v);
             let hit =
                 Hit { t: 1.0, b: [b.x, b.y, 1.0 - b.x - b.y], shape: 0, triangle: triangle as u32 };
-            Sample { ray: Ray::new(wo, -wo), hit, frame, wo, wi, u }
+            Sample { ray: Ray::new(wo, -wo), hit, number: i, frame, wo, wi, u }
         })
         .collect()
 }
@@ -95,27 +96,36 @@ fn lobes(criterion: &mut Criterion) {
     let pool = pool(&tent());
     let mut group = criterion.benchmark_group("shading/lobe");
     let all = BxdfFlags::all();
-    let lambertian = bsdf(&pool[0], LambertianReflection::new(RED));
-    measure(&mut group, "f lambertian", &pool, |s| lambertian.f(s.wo, s.wi, all));
-    measure(&mut group, "pdf lambertian", &pool, |s| lambertian.pdf(s.wo, s.wi, all));
-    measure(&mut group, "sample_f lambertian", &pool, |s| lambertian.sample_f(s.wo, s.u, all));
-    let oren_nayar = bsdf(&pool[0], OrenNayar::new(RED, 20.0));
-    measure(&mut group, "f oren-nayar", &pool, |s| oren_nayar.f(s.wo, s.wi, all));
-    measure(&mut group, "sample_f oren-nayar", &pool, |s| oren_nayar.sample_f(s.wo, s.u, all));
-    measure(&mut group, "f by hand", &pool, |s| f_by_hand(&pool[0].frame, s));
-    measure(&mut group, "pdf by hand", &pool, |s| {
-        let n = pool[0].frame.n;
-        if s.wo.dot(n) * s.wi.dot(n) > 0.0 { s.wi.dot(n).abs() * FRAC_1_PI } else { 0.0 }
+    let smooth: Vec<_> = pool.iter().map(|s| bsdf(s, LambertianReflection::new(RED))).collect();
+    measure(&mut group, "f lambertian", &pool, |s| smooth[s.number].f(s.wo, s.wi, all));
+    measure(&mut group, "f by hand", &pool, |s| {
+        if same_side(s, s.wi) { RED * FRAC_1_PI } else { Spectrum::BLACK }
     });
+    measure(&mut group, "pdf lambertian", &pool, |s| smooth[s.number].pdf(s.wo, s.wi, all));
+    measure(&mut group, "pdf by hand", &pool, |s| {
+        if same_side(s, s.wi) { s.wi.dot(s.frame.n).abs() * FRAC_1_PI } else { 0.0 }
+    });
+    measure(&mut group, "sample_f lambertian", &pool, |s| {
+        smooth[s.number].sample_f(s.wo, s.u, all)
+    });
+    measure(&mut group, "sample_f by hand", &pool, |s| {
+        let local = cosine_hemisphere::sample(s.u);
+        (RED * FRAC_1_PI, s.frame.to_world(local), local.z * FRAC_1_PI)
+    });
+    let rough: Vec<_> = pool.iter().map(|s| bsdf(s, OrenNayar::new(RED, 20.0))).collect();
+    measure(&mut group, "f oren-nayar", &pool, |s| rough[s.number].f(s.wo, s.wi, all));
+    measure(&mut group, "sample_f oren-nayar", &pool, |s| rough[s.number].sample_f(s.wo, s.u, all));
 }
 
-/// Lambert's law with nothing around it.
-fn f_by_hand(frame: &Frame, s: &Sample) -> Spectrum {
-    if s.wo.dot(frame.n) * s.wi.dot(frame.n) > 0.0 { RED * FRAC_1_PI } else { Spectrum::BLACK }
+fn same_side(s: &Sample, wi: Vec3) -> bool {
+    s.wo.dot(s.frame.n) * wi.dot(s.frame.n) > 0.0
 }
 
 /// f and pdf of a list of lobes that is held in some other way than [`Bsdf`] holds it.
-fn ask<'a>(s: &Sample, lobes: impl Iterator<Item = &'a dyn BxDF>) -> (Spectrum, f32) {
+fn ask<'a, B: BxDF + ?Sized + 'a>(
+    s: &Sample,
+    lobes: impl Iterator<Item = &'a B>,
+) -> (Spectrum, f32) {
     let (wo, wi) = (s.frame.to_local(s.wo), s.frame.to_local(s.wi));
     lobes
         .fold((Spectrum::BLACK, 0.0), |(f, pdf), lobe| (f + lobe.f(wo, wi), pdf + lobe.pdf(wo, wi)))
@@ -142,9 +152,7 @@ fn storage(criterion: &mut Criterion) {
     // The same without Bsdf's guards, so that only the ways to hold a lobe differ.
     measure(&mut group, "bare enum", &pool, |s| {
         let lobes = [lobe::bxdf::Lobe::from(LambertianReflection::new(RED))];
-        let lobe = &black_box(lobes)[0];
-        let (wo, wi) = (s.frame.to_local(s.wo), s.frame.to_local(s.wi));
-        (lobe.f(wo, wi), lobe.pdf(wo, wi))
+        ask(s, black_box(lobes).iter())
     });
     let mut bump = Bump::new();
     measure(&mut group, "bare arena dyn", &pool, |s| {
@@ -190,9 +198,12 @@ fn hits(criterion: &mut Criterion) {
     let mode = TransportMode::Radiance;
     measure(&mut group, "interaction", &pool, |s| scene.interaction(&s.ray, &s.hit));
     let matte = MatteMaterial::new(RED);
-    let si = SurfaceInteraction::on_triangle(&mesh, 0, pool[0].hit.b, pool[0].wo);
-    measure(&mut group, "bsdf of a matte hit", &pool, |_| {
-        matte.compute_scattering(&mut black_box(si.clone()), &arena, mode, true)
+    measure(&mut group, "bsdf by hand", &pool, |s| {
+        (Frame::from_normal(s.frame.n), RED * FRAC_1_PI)
+    });
+    let mut interactions: Vec<_> = pool.iter().map(|s| scene.interaction(&s.ray, &s.hit)).collect();
+    measure(&mut group, "bsdf of a matte hit", &pool, |s| {
+        matte.compute_scattering(&mut interactions[s.number], &arena, mode, true)
     });
     measure(&mut group, "through the traits", &pool, |s| {
         let mut si = scene.interaction(&s.ray, &s.hit);

@@ -3,14 +3,15 @@
 use glam::{DVec3, UVec2, Vec2, Vec3};
 
 use crate::geometry::Ray;
+use crate::geometry::float::LARGEST_COORDINATE;
 use crate::sampling::concentric_disk;
 
 /// Why a camera cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CameraError {
-    /// A setting is infinite or not a number.
-    #[error("the camera's {0} is not finite")]
-    NotFinite(&'static str),
+    /// A setting is infinite, not a number, or farther out than [`LARGEST_COORDINATE`].
+    #[error("the camera's {0} is not finite, or is beyond 1e12")]
+    OutOfRange(&'static str),
     /// There is no direction of view.
     #[error("the camera's eye and look_at are the same point, so it looks nowhere")]
     NoDirection,
@@ -79,6 +80,9 @@ pub struct Camera {
 
 impl Camera {
     /// A camera for images of `resolution` pixels.
+    ///
+    /// # Errors
+    /// If a setting is out of its range, or if the settings leave open where the camera looks.
     pub fn new(settings: &CameraSettings, resolution: UVec2) -> Result<Self, CameraError> {
         check(settings, resolution)?;
         // f64, so that a camera far away from the origin still looks where it should.
@@ -120,23 +124,24 @@ impl Camera {
         // All rays of one film point meet on the plane in focus (PBRT 3rd edition, section 6.2.3).
         let lens_point = concentric_disk::sample(lens_u());
         let on_lens = lens_point.x * lens_x + lens_point.y * lens_y;
-        let in_focus = self.focal_distance * through;
-        Ray::new(self.eye + on_lens, (in_focus - on_lens).normalize())
+        // Divided by the distance of that plane, which may be too large to multiply by.
+        Ray::new(self.eye + on_lens, (through - on_lens / self.focal_distance).normalize())
     }
 }
 
 fn check(settings: &CameraSettings, resolution: UVec2) -> Result<(), CameraError> {
     let CameraSettings { eye, look_at, up, fov, lens_radius, focal_distance } = *settings;
-    let finite = [
-        ("eye", eye.is_finite()),
-        ("look_at", look_at.is_finite()),
+    let within = |v: Vec3| v.abs().max_element() <= LARGEST_COORDINATE;
+    let in_range = [
+        ("eye", within(eye)),
+        ("look_at", within(look_at)),
         ("up", up.is_finite()),
         ("fov", fov.is_finite()),
-        ("lens_radius", lens_radius.is_finite()),
+        ("lens_radius", lens_radius <= LARGEST_COORDINATE),
         ("focal_distance", focal_distance.is_finite()),
     ];
-    if let Some((name, _)) = finite.iter().find(|(_, finite)| !finite) {
-        return Err(CameraError::NotFinite(name));
+    if let Some((name, _)) = in_range.iter().find(|(_, in_range)| !in_range) {
+        return Err(CameraError::OutOfRange(name));
     }
     if fov <= 0.0 || fov >= 180.0 {
         return Err(CameraError::Fov(fov));

@@ -81,7 +81,8 @@ impl<'a> SurfaceInteraction<'a> {
     }
 
     /// A hit on a surface of any kind: the point with the bounds of its error, texture coordinates,
-    /// the unit direction towards the viewer, and the derivatives. The normal is ∂p/∂u × ∂p/∂v.
+    /// the unit direction towards the viewer, and the derivatives. The normal is ∂p/∂u × ∂p/∂v,
+    /// or `wo` where these span no plane.
     pub fn new(p: BoundedPoint, uv: Vec2, wo: Vec3, partials: Partials) -> Self {
         let n = unit_cross(partials.dpdu, partials.dpdv).unwrap_or(wo);
         Self {

@@ -1,7 +1,7 @@
 //! [`Spectrum`]: the colour of light and of surfaces, as linear RGB.
 
 use std::iter::Sum;
-use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Sub};
+use std::ops::{Add, AddAssign, Div, Mul, Sub};
 
 use glam::{Vec3, Vec3A};
 
@@ -62,7 +62,7 @@ impl Spectrum {
         self.0.is_finite() && self.0.cmpge(Vec3A::ZERO).all()
     }
 
-    /// Every band brought into `[low, high]`.
+    /// Every band brought into `[low, high]`. What becomes of NaN is left open.
     #[inline]
     pub fn clamp(self, low: f32, high: f32) -> Self {
         Self(self.0.clamp(Vec3A::splat(low), Vec3A::splat(high)))
@@ -72,12 +72,6 @@ impl Spectrum {
     #[inline]
     pub fn max_component(self) -> f32 {
         self.0.max_element()
-    }
-
-    /// Relative luminance: the Y of CIE XYZ, from the Rec. 709 primaries (ITU-R BT.709-6, item 3.2).
-    #[inline]
-    pub fn luminance(self) -> f32 {
-        self.0.dot(Vec3A::new(0.2126, 0.7152, 0.0722))
     }
 }
 
@@ -123,13 +117,6 @@ impl Mul for Spectrum {
     #[inline]
     fn mul(self, other: Self) -> Self {
         Self(self.0 * other.0)
-    }
-}
-
-impl MulAssign for Spectrum {
-    #[inline]
-    fn mul_assign(&mut self, other: Self) {
-        self.0 *= other.0;
     }
 }
 

@@ -6,10 +6,10 @@
 
 use std::path::{Path, PathBuf};
 
-use lobe::film::Window;
+use lobe::film::{Display, Window};
 use lobe::glam::{UVec2, Vec3};
 use lobe::scene::{
-    Display, IntegratorSettings, LoadedScene, SamplerKind, SceneFileError, parse_scene, read_scene,
+    IntegratorSettings, LoadedScene, SamplerKind, SceneFileError, parse_scene, read_scene,
 };
 
 /// A folder of this test's own with a triangle in it.

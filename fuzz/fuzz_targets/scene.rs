@@ -5,6 +5,7 @@ use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
     if let Err(error) = lobe::scene::parse_scene("fuzz.toml".as_ref(), text, &[]) {
-        assert!(error.to_string().starts_with("fuzz.toml"));
+        let message = error.to_string();
+        assert!(message.starts_with("fuzz.toml") && !message.contains('\n'), "{message}");
     }
 });

@@ -10,6 +10,7 @@ use obvhs::bvh2::node::Bvh2Node;
 
 use super::Aabb;
 use super::bundle::bundle;
+use super::leaf::LeafTriangle;
 use crate::shape::TriangleMesh;
 
 /// The triangles of a scene in a tree of boxes.
@@ -38,14 +39,6 @@ pub(super) struct Node {
 pub(super) struct Child {
     pub(super) first: u32,
     pub(super) count: u32,
-}
-
-/// A triangle in a leaf, with the numbers it has outside.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct LeafTriangle {
-    pub(super) corners: [Vec3; 3],
-    pub(super) shape: u32,
-    pub(super) triangle: u32,
 }
 
 impl Accel {

@@ -6,7 +6,7 @@ use glam::Vec3A;
 use obvhs::Boundable;
 use obvhs::aabb::Aabb;
 
-use super::build::LeafTriangle;
+use super::leaf::LeafTriangle;
 
 /// More triangles than this with the same box are one to the tree.
 const MOST: usize = 16;

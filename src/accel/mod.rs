@@ -6,6 +6,7 @@
 mod aabb;
 mod build;
 mod bundle;
+mod leaf;
 mod walk;
 
 pub use aabb::Aabb;

@@ -3,7 +3,8 @@
 use glam::Vec3;
 
 use super::Accel;
-use super::build::{Child, LeafTriangle, Node};
+use super::build::{Child, Node};
+use super::leaf::LeafTriangle;
 use crate::geometry::Ray;
 use crate::geometry::float::gamma;
 use crate::shape::ShearedRay;
@@ -34,32 +35,53 @@ impl Hit {
 }
 
 /// Trees up to this depth are walked with a stack in place; deeper ones, which only degenerate scenes
-/// have, with one on the heap.
+/// have, with one on the heap that serves a whole batch.
 const STACK: usize = 64;
 
 /// A child that waits, and where the ray enters its box.
 type Waiting = (Child, f32);
 
 impl Accel {
-    /// The closest hit of each ray; `hits` is as long as `rays`.
+    /// The closest hit of each ray.
+    ///
+    /// # Panics
+    /// If `hits` is not as long as `rays`.
     pub fn intersect(&self, rays: &[Ray], hits: &mut [Hit]) {
-        for (ray, hit) in rays.iter().zip(hits) {
-            *hit = self.intersect1(ray);
-        }
+        assert_eq!(rays.len(), hits.len());
+        self.with_stack(|stack| {
+            for (ray, hit) in rays.iter().zip(hits) {
+                *hit = self.closest(stack, ray);
+            }
+        });
     }
 
-    /// Whether each ray hits anything; `occluded` is as long as `rays`.
+    /// Whether each ray hits anything.
+    ///
+    /// # Panics
+    /// If `occluded` is not as long as `rays`.
     pub fn occluded(&self, rays: &[Ray], occluded: &mut [bool]) {
-        for (ray, occluded) in rays.iter().zip(occluded) {
-            *occluded = self.occluded1(ray);
-        }
+        assert_eq!(rays.len(), occluded.len());
+        self.with_stack(|stack| {
+            for (ray, occluded) in rays.iter().zip(occluded) {
+                *occluded = self.any(stack, ray);
+            }
+        });
     }
 
     /// The closest hit of one ray. Of two at the same distance, the one of the first triangle counts.
     pub fn intersect1(&self, ray: &Ray) -> Hit {
+        self.with_stack(|stack| self.closest(stack, ray))
+    }
+
+    /// Whether one ray hits anything.
+    pub fn occluded1(&self, ray: &Ray) -> bool {
+        self.with_stack(|stack| self.any(stack, ray))
+    }
+
+    fn closest(&self, stack: &mut [Waiting], ray: &Ray) -> Hit {
         let sheared = ShearedRay::new(ray);
         let mut closest = Hit::MISS;
-        self.walk(ray, |leaf, t_max| {
+        self.walk(stack, ray, |leaf, t_max| {
             for triangle in leaf {
                 let Some(found) = sheared.intersect(&triangle.corners, ray.t_min, *t_max) else {
                     continue;
@@ -78,32 +100,27 @@ impl Accel {
         closest
     }
 
-    /// Whether one ray hits anything.
-    pub fn occluded1(&self, ray: &Ray) -> bool {
+    fn any(&self, stack: &mut [Waiting], ray: &Ray) -> bool {
         let sheared = ShearedRay::new(ray);
         let mut found = false;
-        self.walk(ray, |leaf, t_max| {
+        self.walk(stack, ray, |leaf, t_max| {
             found = leaf.iter().any(|t| sheared.intersect(&t.corners, ray.t_min, *t_max).is_some());
             found
         });
         found
     }
 
+    /// Calls `act` with room for as many waiting children as the tree is deep.
+    #[inline]
+    fn with_stack<R>(&self, act: impl FnOnce(&mut [Waiting]) -> R) -> R {
+        const NONE: Waiting = (Child { first: 0, count: 0 }, 0.0);
+        if self.depth <= STACK { act(&mut [NONE; STACK]) } else { act(&mut vec![NONE; self.depth]) }
+    }
+
     /// Visits the leaves that the ray may meet, near ones first, until `visit` returns true. `visit`
     /// may shorten the ray.
     #[inline]
-    fn walk(&self, ray: &Ray, visit: impl FnMut(&[LeafTriangle], &mut f32) -> bool) {
-        const NONE: Waiting = (Child { first: 0, count: 0 }, 0.0);
-        if self.depth <= STACK {
-            self.walk_with(&mut [NONE; STACK], ray, visit);
-        } else {
-            self.walk_with(&mut vec![NONE; self.depth], ray, visit);
-        }
-    }
-
-    /// [`walk`](Self::walk), with room for as many waiting children as the tree is deep.
-    #[inline]
-    fn walk_with(
+    fn walk(
         &self,
         stack: &mut [Waiting],
         ray: &Ray,
@@ -119,7 +136,7 @@ impl Accel {
             if far.1 < near.1 {
                 (near, far) = (far, near);
             }
-            // Both children are told apart from a miss, which is NaN-free infinity, by their distance.
+            // A box that is missed is infinitely far away.
             if far.1 < f32::INFINITY {
                 stack[waiting] = far;
                 waiting += 1;

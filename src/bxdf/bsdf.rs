@@ -59,11 +59,16 @@ impl<'a> Bsdf<'a> {
         Self { frame, ng, eta, lobes: ArrayVec::new_const(), rejected: Cell::new(0) }
     }
 
-    /// Adds a lobe. Returns whether there was room for it: a ninth lobe is left out.
+    /// Adds a lobe. Returns whether there was room for it: a ninth lobe is left out, and counted as
+    /// rejected.
     #[inline]
     pub fn add(&mut self, lobe: impl Into<Lobe<'a>>) -> bool {
         let lobe = lobe.into();
-        self.lobes.try_push((lobe, lobe.flags())).is_ok()
+        let added = self.lobes.try_push((lobe, lobe.flags())).is_ok();
+        if !added {
+            self.reject();
+        }
+        added
     }
 
     /// The shading frame.
@@ -76,8 +81,8 @@ impl<'a> Bsdf<'a> {
         self.eta
     }
 
-    /// How many answers of lobes were left out, or turned into black, because they were negative or not
-    /// finite.
+    /// How many lobes found no room, and how many answers of lobes were left out, or turned into black,
+    /// because they were negative or not finite.
     pub fn rejected(&self) -> u32 {
         self.rejected.get()
     }
@@ -119,11 +124,11 @@ impl<'a> Bsdf<'a> {
         let local_wi = sample.wi;
         sample.wi = self.frame.to_world(local_wi);
         let specular = kind.contains(BxdfFlags::SPECULAR);
-        sample.pdf = if specular {
-            sample.pdf / matching as f32
-        } else {
-            self.mean_pdf(local_wo, local_wi, flags)
-        };
+        if specular {
+            sample.pdf /= matching as f32;
+        } else if matching > 1 {
+            sample.pdf = self.mean_pdf(local_wo, local_wi, flags);
+        }
         if !sample.wi.is_finite() {
             self.reject();
             return None;
@@ -132,7 +137,12 @@ impl<'a> Bsdf<'a> {
             return None;
         }
         if !specular {
-            sample.f = self.sum(local_wo, local_wi, self.side(wo, sample.wi), flags);
+            let side = self.side(wo, sample.wi);
+            if matching > 1 {
+                sample.f = self.sum(local_wo, local_wi, side, flags);
+            } else if !kind.intersects(side) {
+                sample.f = Spectrum::BLACK;
+            }
         }
         sample.f = self.guarded(sample.f);
         Some(sample)

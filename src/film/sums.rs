@@ -48,6 +48,9 @@ impl Film {
     /// An empty film for the pixels of `window` in an image of `resolution`, with room for the first
     /// hits if `layers` says so. Fails if the film, its picture and the files made from them would not
     /// fit into memory.
+    ///
+    /// # Errors
+    /// [`FilmError::TooLarge`] when the system refuses the memory.
     pub fn new(resolution: UVec2, window: Window, layers: bool) -> Result<Self, FilmError> {
         // Colour and layers once as sums, once developed, and once more while they are written.
         let per_pixel = size_of::<Pixel>() + if layers { size_of::<FirstHits>() } else { 0 };
@@ -98,11 +101,16 @@ impl Film {
         pixel.samples += 1;
     }
 
-    /// Adds what a sample of `pixel` met first. Nothing happens on a film without layers.
+    /// Adds what a sample of `pixel` met first, if all of it is finite, and counts it otherwise. Nothing
+    /// happens on a film without layers.
     #[inline]
     pub fn add_first_hit(&mut self, pixel: UVec2, normal: Vec3, depth: f32, albedo: Spectrum) {
         let place = self.place(pixel);
         let Some(layers) = &mut self.layers else { return };
+        if !(normal.is_finite() && depth.is_finite() && albedo.is_finite()) {
+            self.non_finite += 1;
+            return;
+        }
         let hits = &mut layers[place];
         add(&mut hits.normal, normal.to_array());
         add(&mut hits.albedo, albedo.to_array());

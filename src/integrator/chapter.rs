@@ -1,16 +1,17 @@
 //! [`ChapterIntegrator`]: the chapter's estimator.
 
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 
-use super::{Integrator, Wave};
+use super::{Integrator, Wave, light_samples};
 use crate::bxdf::{BxdfFlags, TransportMode};
 use crate::interaction::SurfaceInteraction;
+use crate::sampling::Sampler;
 use crate::scene::Scene;
 
 /// The chapter's way to show a surface before there is light transport: pdf · f · 3 for the direction
 /// to each light, without shadow, falloff or intensity (section 6.2).
 ///
-/// On a Lambertian surface that is 3 cos θ R / π². With `highlight` it is multiplied by the chapter's
+/// What comes out is a brightness without a unit, not radiance. On a Lambertian surface it is 3 cos θ R / π². With `highlight` it is multiplied by the chapter's
 /// Blinn-Phong factor, 1.5 (0.2 + 0.2 (n · l) + 0.7 (n · h)³²), h halfway between viewer and light.
 /// Unlike there, n is the shading normal on the viewer's side, so that the winding of the mesh does
 /// not matter.
@@ -24,8 +25,8 @@ pub struct ChapterIntegrator {
 const BRIGHTNESS: f32 = 3.0;
 
 impl Integrator for ChapterIntegrator {
-    fn shade(&self, scene: &Scene, wave: &mut Wave) {
-        for ((ray, hit), radiance) in wave.rays.iter().zip(&wave.hits).zip(&mut wave.radiance) {
+    fn shade(&self, scene: &Scene, sampler: &dyn Sampler, wave: &mut Wave) {
+        for (sample, (ray, hit)) in wave.rays.iter().zip(&wave.hits).enumerate() {
             if !hit.is_hit() {
                 continue;
             }
@@ -33,12 +34,11 @@ impl Integrator for ChapterIntegrator {
             let material = scene.material(hit);
             let bsdf =
                 material.compute_scattering(&mut si, &wave.arena, TransportMode::Radiance, true);
-            for light in scene.lights() {
-                let Some(light) = light.sample_li(si.p(), Vec2::splat(0.5)) else { continue };
+            for light in light_samples(scene, sampler, wave.ids[sample], si.p()) {
                 let f = bsdf.f(si.wo(), light.wi, BxdfFlags::all());
                 let pdf = bsdf.pdf(si.wo(), light.wi, BxdfFlags::all());
                 let factor = if self.highlight { blinn_phong(&si, light.wi) } else { 1.0 };
-                *radiance += f * (pdf * BRIGHTNESS * factor);
+                wave.radiance[sample] += f * (pdf * BRIGHTNESS * factor);
             }
             wave.counters.rejected += u64::from(bsdf.rejected());
         }

@@ -1,9 +1,8 @@
 //! [`DirectIntegrator`]: light that comes straight from the lights.
 
-use glam::Vec2;
-
-use super::{Integrator, Wave};
+use super::{Integrator, Wave, light_samples};
 use crate::bxdf::{BxdfFlags, TransportMode};
+use crate::sampling::Sampler;
 use crate::scene::Scene;
 
 /// Radiance reflected once: the sum over all lights of f Li |cos θi| / pdf, where nothing stands
@@ -12,7 +11,7 @@ use crate::scene::Scene;
 pub struct DirectIntegrator;
 
 impl Integrator for DirectIntegrator {
-    fn shade(&self, scene: &Scene, wave: &mut Wave) {
+    fn shade(&self, scene: &Scene, sampler: &dyn Sampler, wave: &mut Wave) {
         for (sample, (ray, hit)) in wave.rays.iter().zip(&wave.hits).enumerate() {
             if !hit.is_hit() {
                 continue;
@@ -21,8 +20,7 @@ impl Integrator for DirectIntegrator {
             let material = scene.material(hit);
             let bsdf =
                 material.compute_scattering(&mut si, &wave.arena, TransportMode::Radiance, true);
-            for light in scene.lights() {
-                let Some(light) = light.sample_li(si.p(), Vec2::splat(0.5)) else { continue };
+            for light in light_samples(scene, sampler, wave.ids[sample], si.p()) {
                 let f = bsdf.f(si.wo(), light.wi, BxdfFlags::all());
                 // Light that will not be reflected need not be asked for.
                 if f.is_black() {

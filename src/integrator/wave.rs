@@ -13,6 +13,8 @@ pub mod dimension {
     pub const FILM: u32 = 0;
     /// The place on the lens, 2D.
     pub const LENS: u32 = 1;
+    /// The place on the first light, 2D; the other lights follow.
+    pub const FIRST_LIGHT: u32 = 2;
 }
 
 /// What a render did.

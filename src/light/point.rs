@@ -20,6 +20,10 @@ impl PointLight {
 }
 
 impl Light for PointLight {
+    fn is_delta(&self) -> bool {
+        true
+    }
+
     /// The irradiance falls with the square of the distance, I / d². None at the light itself.
     #[inline]
     fn sample_li(&self, p: Vec3, _u: Vec2) -> Option<LightSample> {

@@ -50,7 +50,9 @@ impl Material for MatteMaterial {
             bump(displacement, si);
         }
         let mut bsdf = Bsdf::new(si.isotropic_frame(), si.n(), 1.0);
-        let r = self.kd.evaluate(si).clamp(0.0, 1.0);
+        let kd = self.kd.evaluate(si);
+        // What is not finite is passed on: the Bsdf counts it.
+        let r = if kd.is_finite() { kd.clamp(0.0, 1.0) } else { kd };
         if !r.is_black() {
             let sigma = self.sigma.as_ref().map_or(0.0, |s| s.evaluate(si).clamp(0.0, 90.0));
             if sigma == 0.0 {

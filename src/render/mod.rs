@@ -24,9 +24,10 @@ pub struct RenderOptions<'a> {
     pub tile_size: u32,
     /// Whether to keep normal, depth and albedo of the first hits.
     pub layers: bool,
-    /// Told after every tile, by the thread that rendered it.
+    /// Told after every tile, by the thread that rendered it, while the other threads cannot hand in
+    /// theirs: it should be quick.
     pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
-    /// Ends the render early once it is true.
+    /// Ends the render early once it is true; looked at before each tile.
     pub cancel: Option<&'a AtomicBool>,
 }
 
@@ -56,6 +57,8 @@ pub struct Rendered {
     pub counters: Counters,
     /// Samples that were left out because they were not finite.
     pub non_finite: u64,
+    /// How many threads took part.
+    pub threads: usize,
     /// Wall-clock time in seconds.
     pub seconds: f64,
 }
@@ -75,6 +78,9 @@ pub enum RenderError {
 ///
 /// The picture is the same, bit by bit, for any number of threads and any size of tiles.
 ///
+/// # Errors
+/// If there is not enough memory for the film, or if the caller cancels the render.
+///
 /// ```
 /// use lobe::{RenderOptions, Scene, Spectrum, render};
 ///
@@ -90,6 +96,9 @@ pub fn render(scene: &Scene, options: &RenderOptions) -> Result<Rendered, Render
 }
 
 /// Renders a scene by an integrator and a sampler of the caller's.
+///
+/// # Errors
+/// As for [`render`].
 pub fn render_with(
     scene: &Scene,
     integrator: &dyn Integrator,
@@ -122,28 +131,36 @@ pub fn render_with(
         }
         Ok(())
     };
-    std::thread::scope(|scope| {
+    let threads = std::thread::scope(|scope| {
         let others: Vec<_> = (1..threads.map_or(1, NonZeroUsize::get).min(tiles.count()))
             // Where the system gives no more threads, those that there are do the work.
             .map_while(|_| std::thread::Builder::new().spawn_scoped(scope, work).ok())
             .collect();
+        let threads = others.len() + 1;
         let mine = work();
         // A panic in a worker, which only foreign code can cause, goes on in the caller.
         let theirs =
             others.into_iter().map(|w| w.join().unwrap_or_else(|p| std::panic::resume_unwind(p)));
-        theirs.fold(mine, Result::and)
+        theirs.fold(mine, Result::and).map(|()| threads)
     })?;
 
-    if cancelled() {
+    let (film, counters, pixels) =
+        shared.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+    if pixels < settings.window().area() as u64 {
         return Err(RenderError::Cancelled);
     }
-    let (film, counters, _) = shared.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
     let seconds = start.elapsed().as_secs_f64();
-    Ok(Rendered { picture: film.develop(), counters, non_finite: film.non_finite(), seconds })
+    Ok(Rendered {
+        picture: film.develop(),
+        counters,
+        non_finite: film.non_finite(),
+        threads,
+        seconds,
+    })
 }
 
 /// The sampler that the settings ask for.
-pub fn sampler_from_settings(settings: &SamplerSettings) -> Box<dyn Sampler> {
+fn sampler_from_settings(settings: &SamplerSettings) -> Box<dyn Sampler> {
     match settings.kind {
         SamplerKind::Independent => Box::new(IndependentSampler::new(settings.spp, settings.seed)),
         SamplerKind::Stratified => Box::new(StratifiedSampler::new(settings.spp, settings.seed)),

@@ -16,7 +16,8 @@ const WAVE: usize = 1024;
 /// Points for reflectances that have no closed form: a lattice over the unit square.
 const RHO_POINTS: usize = 16;
 
-/// Renders tiles. All of its memory is taken when it is made.
+/// Renders tiles. All of its memory is taken when it is made, apart from that of foreign lobes: the arena
+/// grows until it has met the hit that needs most.
 pub struct Worker<'a> {
     scene: &'a Scene,
     integrator: &'a dyn Integrator,
@@ -62,7 +63,7 @@ impl<'a> Worker<'a> {
                 SampleId { pixel: window.min + place, index: index as u32 }
             });
             self.wave.begin(self.scene, self.sampler, ids);
-            self.integrator.shade(self.scene, &mut self.wave);
+            self.integrator.shade(self.scene, self.sampler, &mut self.wave);
             for (id, &radiance) in self.wave.ids.iter().zip(&self.wave.radiance) {
                 self.tile.add_sample(id.pixel, radiance);
             }
@@ -82,7 +83,8 @@ impl<'a> Worker<'a> {
         std::mem::take(&mut self.wave.counters)
     }
 
-    /// Normal, depth and albedo of what the camera rays hit.
+    /// Normal, depth and albedo of what the camera rays hit. It shades every hit once more, which
+    /// only a render with layers pays for.
     fn add_first_hits(&mut self) {
         let wave = &mut self.wave;
         for ((id, ray), hit) in wave.ids.iter().zip(&wave.rays).zip(&wave.hits) {
@@ -94,6 +96,7 @@ impl<'a> Worker<'a> {
             let bsdf =
                 material.compute_scattering(&mut si, &wave.arena, TransportMode::Radiance, true);
             let albedo = bsdf.rho_hd(si.wo(), &self.rho_points, BxdfFlags::all());
+            wave.counters.rejected += u64::from(bsdf.rejected());
             self.tile.add_first_hit(id.pixel, si.shading_n(), hit.t, albedo);
         }
         wave.arena.reset();

@@ -35,6 +35,9 @@ pub enum SceneError {
         /// The name it asks for.
         material: String,
     },
+    /// More triangles than a `u32` can count.
+    #[error("the scene has {0} triangles, more than {max}", max = u32::MAX)]
+    TooManyTriangles(usize),
     /// A mesh is broken.
     #[error("shape {0:?}: {1}")]
     Mesh(String, MeshError),
@@ -138,6 +141,9 @@ impl SceneBuilder {
     }
 
     /// Checks the scene and builds its tree.
+    ///
+    /// # Errors
+    /// The first setting, mesh or name that is wrong.
     pub fn build(self) -> Result<Scene, SceneError> {
         let camera = self.checked_camera()?;
         let mut shapes = Vec::with_capacity(self.shapes.len());
@@ -149,6 +155,10 @@ impl SceneBuilder {
             };
             shapes.push(Shape { name, material: Arc::clone(found) });
             meshes.push(mesh);
+        }
+        let triangles = meshes.iter().map(|mesh| mesh.indices.len()).sum();
+        if u32::try_from(triangles).is_err() {
+            return Err(SceneError::TooManyTriangles(triangles));
         }
         let start = Instant::now();
         let accel = Accel::build(&meshes);

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 pub use builder::{SceneBuilder, SceneError};
 pub use file::{LoadReport, LoadedScene, Place, Problem, SceneFileError, parse_scene, read_scene};
-pub use settings::{Display, FilmSettings, IntegratorSettings, SamplerKind, SamplerSettings};
+pub use settings::{FilmSettings, IntegratorSettings, SamplerKind, SamplerSettings};
 
 use crate::accel::{Accel, Hit};
 use crate::camera::{Camera, CameraSettings};
@@ -117,7 +117,7 @@ impl Scene {
         self.build_seconds
     }
 
-    /// What is known about a hit of `ray`.
+    /// What is known about a hit of `ray`, whose direction has unit length.
     ///
     /// # Panics
     /// If `hit` is none of this scene's: a miss, or one from elsewhere.

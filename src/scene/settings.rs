@@ -2,8 +2,7 @@
 
 use glam::UVec2;
 
-pub use crate::film::Display;
-use crate::film::Window;
+use crate::film::{Display, Window};
 
 /// The film's size and look.
 #[derive(Clone, Copy, Debug, PartialEq)]

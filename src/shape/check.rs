@@ -3,10 +3,11 @@
 use glam::{Vec2, Vec3};
 
 use super::TriangleMesh;
+use crate::geometry::float::LARGEST_COORDINATE;
 
 impl TriangleMesh {
     /// Checks what the type promises: that `normals` and `uvs` are empty or as long as `positions`,
-    /// that every number is finite, that every index is in range, and that there are fewer than
+    /// that every number is finite and positions are within [`LARGEST_COORDINATE`], that every index is in range, and that there are fewer than
     /// 2^32 vertices and triangles. A mesh without triangles passes. Whether normals have unit
     /// length is not checked.
     ///
@@ -24,7 +25,8 @@ impl TriangleMesh {
             let vertex = of.iter().position(|&x| !is_finite(x))?;
             Some((vertex, of[vertex]))
         }
-        if let Some((vertex, found)) = first_bad(&self.positions, Vec3::is_finite) {
+        let within = |p: Vec3| p.abs().max_element() <= LARGEST_COORDINATE && !p.is_nan();
+        if let Some((vertex, found)) = first_bad(&self.positions, within) {
             return Err(MeshError::Position { vertex, found });
         }
         if let Some((vertex, found)) = first_bad(&self.normals, Vec3::is_finite) {
@@ -64,8 +66,8 @@ pub enum MeshError {
         /// How many there have to be, unless there are none.
         vertices: usize,
     },
-    /// A position that is NaN or infinite.
-    #[error("vertex {vertex} is at {found}, expected finite coordinates")]
+    /// A position that is NaN, infinite or too far out.
+    #[error("vertex {vertex} is at {found}, expected finite coordinates of at most 1e12")]
     Position {
         /// Whose it is.
         vertex: usize,

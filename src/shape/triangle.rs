@@ -18,7 +18,12 @@ pub fn triangle_normal([p0, p1, p2]: [Vec3; 3]) -> Vec3 {
     if wide && length2 > f32::MIN_POSITIVE / f32::EPSILON && length2 < f32::INFINITY {
         return n / length2.sqrt();
     }
-    let [p0, p1, p2]: [DVec3; 3] = [p0, p1, p2].map(DVec3::from);
+    triangle_normal_f64([p0, p1, p2])
+}
+
+#[cold]
+fn triangle_normal_f64(corners: [Vec3; 3]) -> Vec3 {
+    let [p0, p1, p2] = corners.map(DVec3::from);
     (p1 - p0).cross(p2 - p0).normalize_or_zero().as_vec3()
 }
 

@@ -3,7 +3,8 @@
 use std::error::Error;
 
 use clap::Args;
-use lobe::scene::{Display, IntegratorSettings, LoadedScene, SamplerKind, SamplerSettings, Scene};
+use lobe::film::Display;
+use lobe::scene::{IntegratorSettings, LoadedScene, SamplerKind, SamplerSettings, Scene};
 use lobe::{CameraSettings, TriangleMesh};
 
 use crate::scene::SceneArguments;
@@ -38,7 +39,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         }
         summary.add("shape", line);
     }
-    summary.add_meshes(&scene, &report);
+    summary.add_meshes(&scene);
     let accel = scene.accel();
     if !accel.bounds().is_empty() {
         summary.add("bounds", format!("{} to {}", accel.bounds().min, accel.bounds().max));

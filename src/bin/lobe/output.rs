@@ -26,7 +26,7 @@ impl Output {
             return named.iter().map(|path| Self::new(path.clone())).collect();
         }
         let default = |extension| {
-            let mut name: OsString = scene.file_stem().unwrap_or_default().to_owned();
+            let mut name: OsString = scene.file_stem().unwrap_or("scene".as_ref()).to_owned();
             name.push(extension);
             Self::new(name.into())
         };

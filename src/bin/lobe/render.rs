@@ -62,10 +62,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
 
     let bar = (!arguments.quiet).then(|| Bar::new(scene.film().window().area() as u64));
     let progress = |progress: Progress| bar.iter().for_each(|bar| bar.update(progress));
-    let asked = arguments.threads.and_then(|threads| NonZeroUsize::new(threads.into()));
-    let threads = asked.or_else(|| std::thread::available_parallelism().ok());
     let options = RenderOptions {
-        threads,
+        threads: arguments.threads.and_then(|threads| NonZeroUsize::new(threads.into())),
         layers: outputs.iter().any(|output| output.format == Format::Exr),
         progress: Some(&progress),
         ..RenderOptions::default()
@@ -90,8 +88,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         summary.add("scene", &metadata.scene);
         summary.add_film(scene.film());
         summary.add("samples", format!("{spp} per pixel"));
-        summary.add_meshes(&scene, &report);
-        summary.add("threads", threads.map_or(1, NonZeroUsize::get));
+        summary.add_meshes(&scene);
+        summary.add("threads", rendered.threads);
         summary.add("load", format!("{:.3} s", report.seconds));
         summary.add("build", format!("{:.3} s", scene.build_seconds()));
         summary.add("render", format!("{:.3} s", rendered.seconds));

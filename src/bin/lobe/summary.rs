@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::io::{self, Write};
 
 use lobe::film::Window;
-use lobe::scene::{FilmSettings, LoadReport, Scene};
+use lobe::scene::{FilmSettings, Scene};
 
 /// Lines for people and programs alike: a key without blanks, then the value, then its unit if it
 /// has one. Keys may come more than once.
@@ -26,9 +26,10 @@ impl Summary {
     }
 
     /// Adds the number of triangles, and what is odd about them.
-    pub fn add_meshes(&mut self, scene: &Scene, report: &LoadReport) {
-        self.add("triangles", scene.shapes().map(|(_, mesh)| mesh.indices.len()).sum::<usize>());
-        let degenerate = report.meshes.iter().map(|mesh| mesh.degenerate_triangles).sum::<usize>();
+    pub fn add_meshes(&mut self, scene: &Scene) {
+        let triangles = scene.shapes().map(|(_, mesh)| mesh.indices.len()).sum::<usize>();
+        self.add("triangles", triangles);
+        let degenerate = triangles - scene.accel().triangle_count();
         if degenerate > 0 {
             self.add("degenerate", format!("{degenerate} triangles without area, left out"));
         }

@@ -59,7 +59,7 @@ pub fn build(
 fn keys(error: &SceneError) -> Vec<&str> {
     match error {
         SceneError::Camera(error) => match error {
-            CameraError::NotFinite(key) => vec!["camera", key],
+            CameraError::OutOfRange(key) => vec!["camera", key],
             CameraError::NoDirection => vec!["camera", "look_at"],
             CameraError::NoUp => vec!["camera", "up"],
             CameraError::Fov(_) => vec!["camera", "fov"],
@@ -70,6 +70,7 @@ fn keys(error: &SceneError) -> Vec<&str> {
         SceneError::Crop(..) => vec!["film", "crop"],
         SceneError::NoSamples => vec!["sampler", "spp"],
         SceneError::UnknownMaterial { shape, .. } => vec!["shape", shape, "material"],
+        SceneError::TooManyTriangles(_) => vec!["shape"],
         SceneError::Mesh(shape, _) => vec!["shape", shape],
     }
 }

@@ -4,6 +4,7 @@ use glam::{Quat, UVec2, Vec3};
 
 use super::description::{Source, TextureDescription};
 use super::tree::Value;
+use crate::geometry::unit;
 
 /// A type that a value of a scene file can have.
 pub trait FromValue: Sized {
@@ -134,7 +135,7 @@ pub struct Rotation(pub Quat);
 impl FromValue for Rotation {
     fn from_value(value: &Value) -> Option<Self> {
         let [x, y, z, degrees] = FromValue::from_value(value)?;
-        let axis = Vec3::new(x, y, z).try_normalize()?;
+        let axis = unit(Vec3::new(x, y, z))?;
         Some(Self(Quat::from_axis_angle(axis, f32::to_radians(degrees))))
     }
 

@@ -6,6 +6,7 @@ use tobj::{Mesh, Model};
 use super::error::{ObjAttribute, ObjProblem};
 use super::feed::CLOSING_CORNERS;
 use super::places::Places;
+use crate::geometry::unit;
 
 /// The numbers of a file. All are finite.
 pub(super) struct Numbers {
@@ -25,7 +26,13 @@ impl Numbers {
         Ok(Self {
             positions: values(models, |mesh| &mesh.positions, Vertex, places, Vec3::from)?,
             textures: values(models, |mesh| &mesh.texcoords, Texture, places, Vec2::from)?,
-            normals: values(models, |mesh| &mesh.normals, Normal, places, |n| unit(n.into()))?,
+            normals: values(
+                models,
+                |mesh| &mesh.normals,
+                Normal,
+                places,
+                |n| unit(n.into()).unwrap_or_default(),
+            )?,
         })
     }
 }
@@ -55,11 +62,4 @@ fn values<T, const N: usize>(
         }
     }
     Ok(values)
-}
-
-/// The normal with unit length, or zero if it has none.
-fn unit(normal: Vec3) -> Vec3 {
-    // Huge and tiny ones are scaled first: their squares are out of range.
-    let largest = normal.abs().max_element();
-    if largest == 0.0 { Vec3::ZERO } else { (normal / largest).normalize() }
 }

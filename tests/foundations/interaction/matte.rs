@@ -103,7 +103,7 @@ fn bumps_reach_the_lobes() {
     });
 }
 
-/// Caught: nothing that compiles.
+/// Caught: a colour whose bands come out reversed.
 #[test]
 fn constant_textures_are_constant() {
     let mesh = single([Vec3::ZERO, Vec3::X, Vec3::Y]);

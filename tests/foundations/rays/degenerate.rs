@@ -124,7 +124,7 @@ fn deep_trees_are_walked() {
     assert!(deepest > 64, "the deepest tree has {deepest} levels, too few for this test");
 }
 
-/// Rays that are none hit nothing, and end. Caught: nothing so far; it is here for what comes.
+/// Rays that are none hit nothing, and end. Caught: a range of t that NaN falls into.
 #[test]
 fn rays_that_are_none() {
     let accel = Accel::build(&[crate::common::meshes::lumpy(3, 4)]);
