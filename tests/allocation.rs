@@ -1,4 +1,5 @@
-//! Nothing is allocated while samples are rendered: all memory is taken before the first tile is done.
+//! Nothing is allocated while samples are rendered: a worker's memory is taken when it starts, and the
+//! arena for foreign lobes stops growing once it has met the hit that needs most.
 
 mod scenes;
 
@@ -71,8 +72,8 @@ impl Material for ForeignMaterial {
     }
 }
 
-/// How many allocations happen between the end of the first tile and the end of the last. The image
-/// is full of both shapes, so the first tile is as demanding as any.
+/// How many allocations happen between the end of tile 30, by when every kind of hit has been met, and
+/// the end of the last.
 ///
 /// One test for all cases, since the count is the whole process's. Seen to fail with a box around each
 /// hit's material call, and with a new `Wave` for each tile.
