@@ -87,7 +87,7 @@ fn missing_texture_coordinates() {
 }
 
 /// Texture coordinates that do not span a plane: tangents that do, and no change of the normal.
-/// Caught: both of the checks behind the determinant's left out.
+/// Caught: the checks of the determinant and of the quotients both left out; either is enough here.
 #[test]
 fn degenerate_texture_coordinates() {
     for trial in 0..20_000 {
@@ -119,7 +119,8 @@ fn degenerate_texture_coordinates() {
 }
 
 /// Texture coordinates so close to a line that the determinant's rounding decides: what is not taken for
-/// degenerate points the right way, and is of the right length to a factor. Caught: a check for a determinant of exactly 0, and none.
+/// degenerate points the right way, and is of the right length to a factor. Caught: a
+/// check for a determinant of exactly 0, and none.
 #[test]
 fn almost_degenerate_texture_coordinates() {
     let mut solved = 0;
