@@ -2,7 +2,6 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::geometry::float::ONE_MINUS_EPSILON;
 use crate::geometry::{BoundedPoint, Frame, Ray, unit_cross};
 use crate::shape::{TriangleMesh, triangle_normal};
 
@@ -232,14 +231,9 @@ impl<'a> SurfaceInteraction<'a> {
     }
 
     /// The ray from this point to `target`, which is at t = 1 and left out.
-    ///
-    /// Its direction is that from the point itself, by which the side of the surface was chosen: from
-    /// the moved origin to a target close to the surface's plane it could run back through the
-    /// surface. So at t = 1 the ray is as far beside the target as its origin is from the point.
     #[inline]
     pub fn spawn_ray_to(&self, target: Vec3) -> Ray {
-        let d = target - self.p;
-        Ray { t_max: ONE_MINUS_EPSILON, ..Ray::new(self.ray_origin(d), d) }
+        Ray::between(self.ray_origin(target - self.p), target)
     }
 
     #[inline]

@@ -150,7 +150,7 @@ impl Light for Panel {
 /// The irradiance under the middle of a parallel square, in closed form: with X = Y = a/h for half sides a
 /// and distance h, four times a quarter's form factor,
 /// F = 4/(2π) [X/√(1+X²) atan(Y/√(1+X²)) + Y/√(1+Y²) atan(X/√(1+Y²))] (Howell, configuration B-3).
-/// Seen to fail when every light is sampled in its middle, and with the same dimension as the pixel's.
+/// Seen to fail when every light is sampled in its middle, and with 16 samples taken over and over.
 #[test]
 fn lights_with_an_extent_are_sampled() {
     let spp = 1 << 16;

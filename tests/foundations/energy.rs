@@ -64,7 +64,7 @@ fn lobes() -> Vec<(String, Box<dyn BxDF>)> {
     lobes
 }
 
-/// Caught: half of `within` and a third of `beyond` in Oren-Nayar's closed form; the scale left out of
+/// Caught: half of `within`, and `beyond` over 2, in Oren-Nayar's closed form; the scale left out of
 /// `ScaledBxDF::rho_hd`.
 #[test]
 fn directional_reflectance_is_the_integral_of_f() {
@@ -104,8 +104,8 @@ fn points(test: u64, batch: u64) -> Vec<Vec2> {
 }
 
 /// The trait's Monte Carlo estimates have the closed forms for their mean: 64 batches of 4096 points. Caught:
-/// the cosine left out of the throughput; the weight of wo without its cosine; |cos θi| for cos θi below
-/// the surface.
+/// the cosine left out of the throughput; the weight of wo without its cosine; the sum in f32,
+/// which the constant estimate of Lambert's law shows.
 #[test]
 fn monte_carlo_agrees_with_closed_forms() {
     /// A lobe with nothing but its f, and the lobe.

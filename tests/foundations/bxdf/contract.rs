@@ -66,7 +66,7 @@ fn oren_nayar_is_the_published_model() {
     }
 }
 
-/// Sigma 0 is Lambert's law, bit by bit.
+/// Sigma 0 is Lambert's law, bit by bit. Caught: A off by 1e-4.
 #[test]
 fn smooth_oren_nayar_is_lambertian() {
     let color = Spectrum::new(0.9, 0.5, 0.1);

@@ -50,7 +50,7 @@ fn close(a: Spectrum, b: Spectrum) -> bool {
 }
 
 /// Sigma chooses the lobe: none or 0 is Lambert's, anything else Oren-Nayar's, from 0 to 90. Caught: sigma
-/// not clamped; Oren-Nayar for 0, which the count of lobes does not tell.
+/// not clamped.
 #[test]
 fn sigma_chooses_the_lobe() {
     let kd = Spectrum::new(0.6, 0.3, 0.2);
@@ -84,8 +84,8 @@ fn reflectance_is_clamped() {
     }
 }
 
-/// A displacement tilts the frame of the lobes, and the geometric normal stays. Caught: bump mapping after the
-/// frame was made, and whose result is dropped.
+/// A displacement tilts the frame of the lobes, and the geometric normal stays. Caught: a tilt whose
+/// result is dropped.
 #[test]
 fn bumps_reach_the_lobes() {
     // A slope of 1 along u, which is along x.
@@ -103,7 +103,7 @@ fn bumps_reach_the_lobes() {
     });
 }
 
-/// Caught: a colour whose bands come out reversed.
+/// Caught: bands in another order.
 #[test]
 fn constant_textures_are_constant() {
     let mesh = single([Vec3::ZERO, Vec3::X, Vec3::Y]);

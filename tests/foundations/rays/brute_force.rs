@@ -115,7 +115,7 @@ fn some_ray(rng: &mut Rng, meshes: &[TriangleMesh]) -> Ray {
 }
 
 /// Caught: boxes that are not padded; -0 taken for forwards; t_min ignored by the triangle test, and t_max
-/// by `occluded1`; far children before near ones with the early end kept.
+/// by `occluded1`; a ray cut short by a thousandth.
 #[test]
 fn the_tree_gives_what_a_loop_gives() {
     for (number, meshes) in scenes().iter().enumerate() {

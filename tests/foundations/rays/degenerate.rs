@@ -124,7 +124,8 @@ fn deep_trees_are_walked() {
     assert!(deepest > 64, "the deepest tree has {deepest} levels, too few for this test");
 }
 
-/// Rays that are none hit nothing, and end. Caught: a range of t that NaN falls into.
+/// Rays that are none hit nothing, and end. Caught: comparisons turned round in the triangle
+/// test, so that a t of NaN passes.
 #[test]
 fn rays_that_are_none() {
     let accel = Accel::build(&[crate::common::meshes::lumpy(3, 4)]);
@@ -144,7 +145,8 @@ fn rays_that_are_none() {
     assert!(!accel.intersect1(&nan_range).is_hit());
 }
 
-/// Directions of any length give the same hits. Caught: a reciprocal that overflows for short ones.
+/// Directions of any length give the same hits. Caught: a bound on the error of t in units that
+/// suit directions of unit length alone.
 #[test]
 fn directions_of_any_length() {
     let accel = Accel::build(&[crate::common::meshes::lumpy(3, 4)]);
