@@ -26,6 +26,12 @@ impl Ray {
         Self { o, t_min: 0.0, d, t_max: f32::INFINITY }
     }
 
+    /// The open segment from `o` to `p`: t = 1 stands for `p`, which itself is left out.
+    #[inline]
+    pub fn between(o: Vec3, p: Vec3) -> Self {
+        Self { o, t_min: 0.0, d: p - o, t_max: super::float::ONE_MINUS_EPSILON }
+    }
+
     /// The point at `t`.
     #[inline]
     pub fn at(&self, t: f32) -> Vec3 {
