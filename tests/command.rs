@@ -238,7 +238,7 @@ fn bad_meshes() {
         ),
         (
             "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n",
-            ":2: vertex 2 is (1, NaN, 0), expected finite numbers",
+            ":2: vertex 2 is (1, NaN, 0), expected finite numbers up to 1e12",
         ),
     ];
     for (mesh, message) in cases {

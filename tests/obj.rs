@@ -331,7 +331,14 @@ fn wrong_lines_are_refused_with_their_place() {
             "v 1 2 3-4-5-6-7-8-9-10-11-12-13-14-15-16-17-18-19",
             "m.obj:5: v has \"3-4-5-6-7-8-9-10-11-12-13-14-15-16-17-1…\" where a number is expected",
         ),
-        ("v 1 nan 2\nf 1 2 3", "m.obj:5: vertex 5 is (1, NaN, 2), expected finite numbers"),
+        (
+            "v 1 nan 2\nf 1 2 3",
+            "m.obj:5: vertex 5 is (1, NaN, 2), expected finite numbers up to 1e12",
+        ),
+        (
+            "v 1 -2e12 2\nf 1 2 3",
+            "m.obj:5: vertex 5 is (1, -2000000000000, 2), expected finite numbers up to 1e12",
+        ),
         (
             "f 1 2 3\n\nvt 0 0\nvt -inf 2 7",
             "m.obj:8: texture coordinate 2 is (-inf, 2), expected finite numbers",
@@ -489,7 +496,7 @@ fn check_finds_what_is_wrong() {
     );
     assert_eq!(
         refusal(|m| m.positions[2].y = f32::NAN),
-        "vertex 2 is at [1, NaN, 0], expected finite coordinates"
+        "vertex 2 is at [1, NaN, 0], expected finite coordinates up to 1e12"
     );
     assert_eq!(
         refusal(|m| m.normals = vec![Vec3::Z, Vec3::INFINITY, Vec3::Z, Vec3::Z]),

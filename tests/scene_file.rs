@@ -303,6 +303,10 @@ fn wrong_types() {
 fn values_out_of_range() {
     all_refused(&[
         (
+            "[camera]\neye = [0, -1e13, 0]",
+            "s.toml:2:7: the camera's eye is not finite, or is beyond 1e12",
+        ),
+        (
             "[camera]\nfov = 180",
             "s.toml:2:7: the camera's fov is 180 degrees: it has to be above 0 and below 180",
         ),
@@ -425,8 +429,9 @@ fn meshes_that_cannot_be_read() {
         "scene.toml:5:7: bad.obj:2: face refers to vertex 2, but the file has only 1 vertex"
     );
     assert_eq!(
-        message("obj = \"triangle.obj\"\nscale = 1e38\ntranslate = [3.4e38, 0, 0]"),
-        "scene.toml:3:1: shape \"s\": vertex 1 is at [inf, 0, 0], expected finite coordinates"
+        message("obj = \"triangle.obj\"\ntranslate = [2e12, 0, 0]"),
+        "scene.toml:3:1: shape \"s\": vertex 0 is at [2000000000000, 0, 0], expected finite \
+         coordinates up to 1e12"
     );
 }
 

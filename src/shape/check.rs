@@ -67,7 +67,7 @@ pub enum MeshError {
         vertices: usize,
     },
     /// A position that is NaN, infinite or too far out.
-    #[error("vertex {vertex} is at {found}, expected finite coordinates of at most 1e12")]
+    #[error("vertex {vertex} is at {found}, expected finite coordinates up to 1e12")]
     Position {
         /// Whose it is.
         vertex: usize,

@@ -3,6 +3,8 @@
 use std::fmt::{self, Display, Formatter};
 use std::io;
 
+use crate::geometry::float::LARGEST_COORDINATE;
+
 /// Why an OBJ file could not be read. Each message is one sentence that begins with the file's
 /// name, and with the line where there is one: `wing.obj:12: face has 2 corners, expected ...`.
 ///
@@ -95,13 +97,14 @@ pub enum ObjProblem {
         /// The word.
         text: String,
     },
-    /// A number that is NaN, infinite, or beyond the range of `f32`.
+    /// A number that is NaN, infinite, or beyond what its attribute may be.
     #[error(
-        "{} {index} is {}, expected finite numbers",
+        "{} {index} is {}, expected {}",
         attribute.singular(),
-        Tuple(&found[..attribute.dimensions()])
+        Tuple(&found[..attribute.dimensions()]),
+        attribute.range()
     )]
-    NotFinite {
+    OutOfRange {
         /// What the line holds.
         attribute: ObjAttribute,
         /// Which of the file's it is, counted from 1.
@@ -183,6 +186,15 @@ impl ObjAttribute {
 
     const fn singular(self) -> &'static str {
         ["vertex", "texture coordinate", "normal"][self as usize]
+    }
+
+    /// The largest magnitude of its numbers.
+    pub(super) const fn limit(self) -> f32 {
+        [LARGEST_COORDINATE, f32::MAX, f32::MAX][self as usize]
+    }
+
+    const fn range(self) -> &'static str {
+        ["finite numbers up to 1e12", "finite numbers", "finite numbers"][self as usize]
     }
 
     const fn plural(self) -> &'static str {

@@ -20,7 +20,7 @@ impl Numbers {
     /// Collects them from tobj's models, one for each closing face of the feed.
     ///
     /// # Errors
-    /// The first number that is NaN, infinite or too large for `f32`, with its line.
+    /// The first number that is NaN, infinite or too large, with its line.
     pub fn collect(models: &[Model], places: &[Places; 3]) -> Result<Self, (u64, ObjProblem)> {
         use ObjAttribute::{Normal, Texture, Vertex};
         Ok(Self {
@@ -51,11 +51,11 @@ fn values<T, const N: usize>(
         // What is left over is the last value of all, repeated in each face that had no other.
         let left = (places.count() - values.len()).min(CLOSING_CORNERS);
         for numbers in numbers(&model.mesh).as_chunks().0.iter().take(left) {
-            if !numbers.iter().all(|x| x.is_finite()) {
+            if !numbers.iter().all(|x| x.abs() <= attribute.limit()) {
                 let mut found = [0.0; 3];
                 found[..N].copy_from_slice(numbers);
                 let index = values.len() + 1;
-                let problem = ObjProblem::NotFinite { attribute, index, found };
+                let problem = ObjProblem::OutOfRange { attribute, index, found };
                 return Err((places.line(index - 1), problem));
             }
             values.push(make(*numbers));
