@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-use super::{Integrator, Wave, light_samples};
-use crate::bxdf::{BxdfFlags, TransportMode};
+use super::{Integrator, Lit, Wave, for_each_light};
+use crate::bxdf::BxdfFlags;
 use crate::interaction::SurfaceInteraction;
 use crate::sampling::Sampler;
 use crate::scene::Scene;
@@ -26,23 +26,12 @@ const BRIGHTNESS: f32 = 3.0;
 
 impl Integrator for ChapterIntegrator {
     fn shade(&self, scene: &Scene, sampler: &dyn Sampler, wave: &mut Wave) {
-        for (sample, (ray, hit)) in wave.rays.iter().zip(&wave.hits).enumerate() {
-            if !hit.is_hit() {
-                continue;
-            }
-            let mut si = scene.interaction(ray, hit);
-            let material = scene.material(hit);
-            let bsdf =
-                material.compute_scattering(&mut si, &wave.arena, TransportMode::Radiance, true);
-            for light in light_samples(scene, sampler, wave.ids[sample], si.p()) {
-                let f = bsdf.f(si.wo(), light.wi, BxdfFlags::all());
-                let pdf = bsdf.pdf(si.wo(), light.wi, BxdfFlags::all());
-                let factor = if self.highlight { blinn_phong(&si, light.wi) } else { 1.0 };
-                wave.radiance[sample] += f * (pdf * BRIGHTNESS * factor);
-            }
-            wave.counters.rejected += u64::from(bsdf.rejected());
-        }
-        wave.arena.reset();
+        for_each_light(scene, sampler, wave, |Lit { sample, si, bsdf, light }, radiance, _| {
+            let f = bsdf.f(si.wo(), light.wi, BxdfFlags::all());
+            let pdf = bsdf.pdf(si.wo(), light.wi, BxdfFlags::all());
+            let factor = if self.highlight { blinn_phong(si, light.wi) } else { 1.0 };
+            radiance[sample] += f * (pdf * BRIGHTNESS * factor);
+        });
     }
 }
 

@@ -11,7 +11,8 @@ pub struct SceneArguments {
     #[arg(value_name = "SCENE")]
     pub path: PathBuf,
 
-    /// Sets a value of the scene, in TOML, whether the file has it or not; may be repeated
+    /// Sets a value of the scene, in TOML, whether the file has it or not; may be repeated. An OBJ
+    /// file that it names is looked for from the current directory
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
 }
