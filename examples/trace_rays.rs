@@ -1,0 +1,151 @@
+//! Traces rays from files against a mesh and says how many hit, and how fast.
+//!
+//! `cargo run --release --example trace_rays -- MESH.obj FILE.rays... [--threads N] [--mode closest|any|batch]`
+//!
+//! A ray file is a flat array of rays, each 8 little-endian f32: origin, t_min, direction, t_max. Each
+//! file is traced nine times; a line gives rays, hits, the sum of t over the hits (0 for `any`), and the
+//! median and best of millions of rays per second.
+
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use lobe::accel::{Accel, Hit};
+use lobe::geometry::Ray;
+use lobe::glam::Vec3;
+use lobe::shape::read_obj;
+
+const REPETITIONS: usize = 9;
+/// Rays in one call of `batch`: what a renderer's wave holds.
+const BATCH: usize = 1024;
+
+#[derive(Clone, Copy)]
+enum Mode {
+    Closest,
+    Any,
+    Batch,
+}
+
+struct Options {
+    mesh: PathBuf,
+    rays: Vec<PathBuf>,
+    threads: usize,
+    mode: Mode,
+}
+
+fn options() -> Result<Options, Box<dyn Error>> {
+    let (mut files, mut threads, mut mode) = (Vec::new(), 1, Mode::Closest);
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--threads" => {
+                let count = arguments.next().and_then(|n| n.parse().ok()).filter(|&n| n > 0);
+                threads = count.ok_or("--threads needs a number of at least 1")?;
+            }
+            "--mode" => {
+                mode = match arguments.next().as_deref() {
+                    Some("closest") => Mode::Closest,
+                    Some("any") => Mode::Any,
+                    Some("batch") => Mode::Batch,
+                    _ => return Err("--mode needs closest, any or batch".into()),
+                }
+            }
+            option if option.starts_with('-') => {
+                return Err(
+                    format!("there is no option {option}; see the head of this file").into()
+                );
+            }
+            file => files.push(PathBuf::from(file)),
+        }
+    }
+    if files.len() < 2 {
+        return Err(
+            "usage: trace_rays MESH.obj FILE.rays... [--threads N] [--mode closest|any|batch]"
+                .into(),
+        );
+    }
+    let rays = files.split_off(1);
+    Ok(Options { mesh: files.remove(0), rays, threads, mode })
+}
+
+fn read_rays(path: &Path) -> Result<Vec<Ray>, Box<dyn Error>> {
+    let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let (rays, rest) = bytes.as_chunks::<32>();
+    if !rest.is_empty() {
+        return Err(format!("{}: its size is not a multiple of 32 bytes", path.display()).into());
+    }
+    Ok(rays.iter().map(ray).collect())
+}
+
+fn ray(bytes: &[u8; 32]) -> Ray {
+    let number = |i: usize| f32::from_le_bytes(std::array::from_fn(|byte| bytes[4 * i + byte]));
+    let vector = |i: usize| Vec3::new(number(i), number(i + 1), number(i + 2));
+    Ray { o: vector(0), t_min: number(3), d: vector(4), t_max: number(7) }
+}
+
+/// Hits and the sum of their t.
+fn trace(accel: &Accel, rays: &[Ray], mode: Mode) -> (usize, f64) {
+    let count = |hits: &mut dyn Iterator<Item = Hit>| {
+        hits.filter(Hit::is_hit).fold((0, 0.0), |(n, sum), hit| (n + 1, sum + f64::from(hit.t)))
+    };
+    match mode {
+        Mode::Closest => count(&mut rays.iter().map(|ray| accel.intersect1(ray))),
+        Mode::Any => (rays.iter().filter(|ray| accel.occluded1(ray)).count(), 0.0),
+        Mode::Batch => {
+            let mut hits = [Hit::MISS; BATCH];
+            rays.chunks(BATCH).fold((0, 0.0), |(n, sum), rays| {
+                let hits = &mut hits[..rays.len()];
+                accel.intersect(rays, hits);
+                let (more, t) = count(&mut hits.iter().copied());
+                (n + more, sum + t)
+            })
+        }
+    }
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let options = options()?;
+    let mesh = read_obj(&options.mesh)?.mesh;
+    let start = Instant::now();
+    let accel = Accel::build(&[mesh]);
+    let seconds = start.elapsed().as_secs_f64();
+    println!("lobe build {seconds:.3} s, {} triangles", accel.triangle_count());
+    for path in &options.rays {
+        let rays = read_rays(path)?;
+        let share = rays.len().div_ceil(options.threads).max(1);
+        let mut seconds = Vec::new();
+        let mut found = (0, 0.0);
+        for _ in 0..REPETITIONS {
+            let start = Instant::now();
+            found = std::thread::scope(|scope| {
+                let workers: Vec<_> = rays
+                    .chunks(share)
+                    .map(|rays| scope.spawn(|| trace(&accel, rays, options.mode)))
+                    .collect();
+                let joined =
+                    workers.into_iter().map(|worker| worker.join().expect("no worker panics"));
+                joined.fold((0, 0.0), |(n, sum), (hits, t)| (n + hits, sum + t))
+            });
+            seconds.push(start.elapsed().as_secs_f64());
+        }
+        seconds.sort_by(f64::total_cmp);
+        // PREFIX.camera.rays is "camera".
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let kind = stem.rsplit('.').next().unwrap_or_default();
+        let name = match options.mode {
+            Mode::Closest => kind.to_owned(),
+            Mode::Any => format!("{kind}-any"),
+            Mode::Batch => format!("{kind}-batch"),
+        };
+        let speed = |seconds: f64| rays.len() as f64 / seconds / 1e6;
+        println!(
+            "lobe {name:16} rays {} hits {} sum_t {:.3}  Mrays/s median {:.3} best {:.3}",
+            rays.len(),
+            found.0,
+            found.1,
+            speed(seconds[REPETITIONS / 2]),
+            speed(seconds[0])
+        );
+    }
+    Ok(())
+}
