@@ -207,6 +207,7 @@ fn bad_scenes() {
     let folder = Folder::new("scenes");
     folder.fails("render no.toml", "no.toml: there is no such file");
     folder.fails("info .", ".: is a directory, expected a scene file");
+    folder.fails("render ..", "..: is a directory, expected a scene file");
     let cases = [
         ("[camera\n", "1:8: not valid TOML: unclosed table, expected `]`"),
         ("[camera]\nfvo = 3", "2:1: unknown key `fvo` in [camera]; did you mean `fov`?"),

@@ -6,10 +6,12 @@ mod scenes;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
+use lobe::bxdf::{Arena, Bsdf, TransportMode};
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::integrator::DirectIntegrator;
-use lobe::interaction::SurfaceInteraction;
+use lobe::interaction::{Shading, SurfaceInteraction};
 use lobe::light::{Light, LightSample};
+use lobe::material::Material;
 use lobe::render::{RenderError, Rendered, render_with};
 use lobe::scene::{IntegratorSettings, SamplerKind, SamplerSettings, SceneBuilder};
 use lobe::texture::Texture;
@@ -68,6 +70,42 @@ fn radiance_that_is_none_is_counted() {
     let bright = rendered(from_above(MatteMaterial::new([0.5; 3])).light(light));
     assert_eq!(bright.non_finite, 16 * 16 * 4);
     assert!(bright.picture.color.iter().all(|color| color.is_black()));
+}
+
+/// Breaks the shading frame.
+struct NoFrame;
+
+impl Material for NoFrame {
+    fn compute_scattering<'a>(
+        &self,
+        si: &mut SurfaceInteraction,
+        _arena: &'a Arena,
+        _mode: TransportMode,
+        _allow_multiple_lobes: bool,
+    ) -> Bsdf<'a> {
+        si.set_shading(Shading { n: Vec3::NAN, ..si.shading() });
+        Bsdf::new(si.isotropic_frame(), si.n(), 1.0)
+    }
+}
+
+/// A shading normal that is none stays out of the layers, and each is counted. Seen to fail without the
+/// film's test of first hits.
+#[test]
+fn first_hits_that_are_none_are_counted() {
+    let broken = rendered(from_above(MatteMaterial::new([0.5; 3])).material("floor", NoFrame));
+    assert_eq!(broken.non_finite, 16 * 16 * 4);
+    assert!(broken.picture.layers.unwrap().normal.iter().all(|n| *n == Vec3::ZERO));
+}
+
+/// No more threads take part than there are tiles. Seen to fail with the number that was asked for.
+#[test]
+fn threads_that_took_part_are_told() {
+    let scene = from_above(MatteMaterial::new([0.5; 3])).build().unwrap();
+    for (asked, tile_size, expected) in [(7, 16, 1), (7, 8, 4), (2, 8, 2)] {
+        let threads = std::num::NonZeroUsize::new(asked);
+        let options = RenderOptions { threads, tile_size, ..RenderOptions::default() };
+        assert_eq!(render(&scene, &options).unwrap().threads, expected);
+    }
 }
 
 /// The floor's normal, albedo and distance: 2 / cos θ from above, within the pixel. Seen to fail with

@@ -141,6 +141,9 @@ fn a_shape_is_scaled_then_rotated_then_translated() {
     // About +z from x to y, about +y from z to x.
     assert!((place("rotate = [0, 0, 5, 90]") - Vec3::Y).length() < 1e-6);
     assert!((place("rotate = [0, 1, 0, 90]") + Vec3::Z).length() < 1e-6);
+    // The length of an axis does not matter, however far its square leaves f32.
+    assert!((place("rotate = [0, 0, 1e30, 90]") - Vec3::Y).length() < 1e-6);
+    assert!((place("rotate = [0, 0, 1e-30, 90]") - Vec3::Y).length() < 1e-6);
     let all = place("translate = [0, 0, 7]\nrotate = [0, 0, 1, 90]\nscale = [2, 9, 9]");
     assert!((all - Vec3::new(0.0, 2.0, 7.0)).length() < 1e-5, "{all}");
 }

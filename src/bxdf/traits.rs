@@ -78,6 +78,7 @@ pub struct BxdfSample {
 /// let sample = HalfMoon.sample_f(wo, Vec2::new(0.9, 0.6)).unwrap();
 /// assert_eq!(sample.pdf, HalfMoon.pdf(wo, sample.wi));
 /// assert_eq!(sample.f, HalfMoon.f(wo, sample.wi));
+/// assert!(HalfMoon.matches(BxdfFlags::all()) && !HalfMoon.matches(BxdfFlags::REFLECTION));
 /// ```
 pub trait BxDF: Send + Sync {
     /// What kind of lobe this is.

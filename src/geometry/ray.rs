@@ -31,10 +31,4 @@ impl Ray {
     pub fn between(o: Vec3, p: Vec3) -> Self {
         Self { o, t_min: 0.0, d: p - o, t_max: super::float::ONE_MINUS_EPSILON }
     }
-
-    /// The point at `t`.
-    #[inline]
-    pub fn at(&self, t: f32) -> Vec3 {
-        self.o + t * self.d
-    }
 }

@@ -24,7 +24,7 @@ pub struct Counters {
     pub camera_rays: u64,
     /// Rays towards lights.
     pub shadow_rays: u64,
-    /// Answers of lobes that were negative or not finite and were taken as black.
+    /// What Bsdfs refused: see [`Bsdf::rejected`](crate::bxdf::Bsdf::rejected).
     pub rejected: u64,
 }
 

@@ -64,14 +64,16 @@ fn flags_choose_lobes() {
     assert_eq!(only(F::TRANSMISSION), Spectrum::splat(0.5 * FRAC_1_PI));
 }
 
-/// Caught: `<=` in place of `<` in the check for room, which panics.
+/// And counted. Caught: a push without a check for room, which panics; a refusal that is not counted.
 #[test]
 fn a_ninth_lobe_is_refused() {
     let mut bsdf = flat();
     for _ in 0..MAX_LOBES {
         assert!(bsdf.add(LambertianReflection::new(Spectrum::splat(0.1))));
     }
+    assert_eq!(bsdf.rejected(), 0);
     assert!(!bsdf.add(WHITE));
+    assert_eq!(bsdf.rejected(), 1);
     assert_eq!(bsdf.num_components(BxdfFlags::all()), MAX_LOBES);
     let f = bsdf.f(Vec3::Z, Vec3::Z, BxdfFlags::all()).to_array()[0];
     assert!((f - 0.8 * FRAC_1_PI).abs() < 1e-6);
