@@ -64,7 +64,7 @@ fn flags_choose_lobes() {
     assert_eq!(only(F::TRANSMISSION), Spectrum::splat(0.5 * FRAC_1_PI));
 }
 
-/// And counted. Caught: a push without a check for room, which panics; a refusal that is not counted.
+/// And counted. Caught: a refusal that is not counted.
 #[test]
 fn a_ninth_lobe_is_refused() {
     let mut bsdf = flat();
