@@ -4,30 +4,35 @@
 //! cargo run --release --example ray_origins -- [-o DIR] [--rays N]
 //! ```
 //!
-//! It writes `ray-origins.csv` and `ray-origins.svg` into DIR. The same N gives the same bytes: the random numbers
-//! are the example's own, and of the mathematical functions only square roots stand between them and
-//! the counts.
+//! It writes into DIR (`docs` unless told otherwise) `ray-origins.csv` with all counts, and two charts:
+//! `ray-origins.svg` with the crate's triangle test and `ray-origins-plain.svg` with a plain one. The
+//! same N gives the same counts everywhere: the random numbers are the example's own, and of the
+//! mathematical functions only the square root takes part. 100,000 rays for each point, the
+//! default, take half a minute on one core.
 //!
-//! The methods (`method`): a fixed epsilon of 1e-4 along the geometric normal; Waechter and Binder 2019; the
-//! crate's error bounds. A fourth, no offset at all, is the control which shows that the trials catch failures. All
-//! get the same hits and directions, and all rays are tried with the crate's triangle test.
+//! **Methods** (`method`): a fixed epsilon of 1e-4 along the geometric normal; Waechter and Binder 2019; the
+//! crate's error bounds; and no offset at all, the control which shows that the trials catch failures. All
+//! get the same hits, points and directions. The rays are tried with two tests (`triangle_test`): the
+//! crate's, which takes no hit at a t within the bound of its error, and Möller and Trumbore's with
+//! t > 0. That bound is one half of PBRT's method, and it protects the rays of the other methods too.
 //!
-//! A trial (`scene`): a triangle of random shape, and the three that continue it beyond its edges, exactly in its
-//! plane. A ray hits one of the four, and another leaves the hit to a random side in a random direction `w`; half
-//! of the directions are laid towards the surface, down to a sine of 1e-6. Coordinates are within twice the scale
-//! of a centre that is at the given distance from the origin.
+//! **Trials** (`scene`): a triangle of random shape, and the three that continue it beyond its edges,
+//! exactly in its plane. A ray hits one of the four, and another leaves the hit to a random side along
+//! `w`; half of the directions are laid towards the surface, down to a sine of 1e-6. The
+//! coordinates are within twice the scale of a centre at the given distance from the origin.
 //!
-//! The failures (`measure`), each against a truth in f64 from the f32 numbers as they are:
+//! **Failures** (`measure`), each against a truth in f64 from the f32 numbers as they are:
 //!
-//! - **False self-hit**: the leaving ray hits one of the four triangles. The exact hit point lies in their plane and `w`
-//!   leaves it, so there is no such hit. Only directions at a sine of at least 1e-6 from the plane count:
-//!   closer to it the rounding of `w` and of the normal may decide on the side.
-//! - **Lost contact**: a plate, parallel to the surface at a gap of 1e-3 or 1e-5 of the scale, is not hit by the leaving
-//!   ray. Asked for are the rays for which the plate holds, with a margin, both the exact ray's hit and the foot of
-//!   the perpendicular on it: then the ray hits it from every start between the exact hit point and
-//!   that foot. Its corners, rounded to f32, must each keep half the gap to one and a half from
-//!   the surface. Far from the origin they do not, as the gap is below the spacing of floats there, and
-//!   nothing is counted.
+//! - False self-hit: the leaving ray hits one of the four triangles. The exact hit point lies in their
+//!   plane and `w` leaves it, so that there is no such hit. Only directions at a sine of at least 1e-6
+//!   from the plane count: closer to it, the rounding of `w` and of the normal may decide on the side.
+//! - Lost contact: a plate, parallel to the surface at a gap of 1e-3 or 1e-5 of the scale, is not hit by
+//!   the leaving ray. Only rays count for which the plate holds, with a margin, both the hit of the
+//!   exact ray and the foot of the perpendicular: then the ray hits it from every start between the
+//!   exact point and that foot. The gap must be at least the spacing of floats at that distance, and at
+//!   the corners of the plate, rounded to f32, between half and one and a half of what it should be.
+//!
+//! Where rounding leaves fewer such rays than asked for, nothing is reported.
 
 mod chart;
 mod measure;

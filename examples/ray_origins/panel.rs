@@ -6,10 +6,12 @@ use crate::measure::{Failure, Place, Row};
 use crate::method::Method;
 
 /// Width and height of the part with the axis of rates.
-pub const WIDTH: f64 = 246.0;
-const HEIGHT: f64 = 120.0;
+const WIDTH: f64 = 246.0;
+const HEIGHT: f64 = 115.0;
 /// The band below it, for counts of zero, with a lane for each method.
 const BAND: f64 = 34.0;
+const ABOVE_BAND: f64 = 9.0;
+const BOTTOM: f64 = HEIGHT + ABOVE_BAND + BAND;
 const LANE: f64 = 7.5;
 
 /// What a panel's x axis shows. The other parameter is fixed.
@@ -25,6 +27,13 @@ impl Sweep {
         match self {
             Self::Scale => (place.distance == 0.0).then_some(place.scale),
             Self::Distance => (place.scale == 1.0).then_some(place.distance),
+        }
+    }
+
+    fn title(self) -> &'static str {
+        match self {
+            Self::Scale => "scale of a scene at the origin (units)",
+            Self::Distance => "distance from the origin at scale 1 (units)",
         }
     }
 
@@ -83,7 +92,7 @@ impl Panel {
         self.draw_frame(svg);
         let rows = || rows.iter().filter(|row| row.failure == self.failure);
         let points = |method: Method| -> Vec<(f64, f64)> {
-            let rows = rows().filter(|row| row.method == method && row.trials > 0);
+            let rows = rows().filter(|row| row.method == method);
             let point = |row: &Row| Some((self.x(self.sweep.value(row.place)?), self.y(row)));
             rows.filter_map(point).collect()
         };
@@ -109,14 +118,14 @@ impl Panel {
         let failures = row.failures[self.test];
         if failures == 0 {
             let lane = Method::ALL.iter().position(|&m| m == row.method).unwrap_or_default();
-            return self.top + HEIGHT + BAND / 2.0 + (lane as f64 - 1.5) * LANE;
+            return self.top + BOTTOM - BAND / 2.0 + (lane as f64 - 1.5) * LANE;
         }
         self.rate_y((f64::from(failures) / f64::from(row.trials)).log10())
     }
 
     fn draw_frame(&self, svg: &mut String) {
         let (left, right, top) = (self.left, self.left + WIDTH, self.top);
-        let (zero, bottom) = (top + HEIGHT, top + HEIGHT + BAND);
+        let (zero, bottom) = (top + BOTTOM - BAND, top + BOTTOM);
         let _ = writeln!(
             svg,
             r#"<rect class="band" x="{left}" y="{zero}" width="{WIDTH}" height="{BAND}"/>"#
@@ -136,23 +145,25 @@ impl Panel {
             let _ = writeln!(svg, r#"<path class="grid" d="M{x:.1} {top}V{bottom}"/>"#);
             label(svg, x, bottom + 13.0, "middle", text);
         }
+        label(svg, left + WIDTH / 2.0, bottom + 28.0, "middle", self.sweep.title());
     }
 
-    /// Covers what lies right of the last value that has trials.
+    /// Covers what lies right of the last value that has a row.
     fn draw_missing(&self, svg: &mut String, last: f64) {
         let from = last + 8.0;
         let width = self.left + WIDTH - from;
         if width < 10.0 {
             return;
         }
-        let (top, height) = (self.top, HEIGHT + BAND);
+        let top = self.top;
         let _ = writeln!(
             svg,
-            r#"<rect class="missing" x="{from:.1}" y="{top}" width="{width:.1}" height="{height}"/>"#
+            r#"<rect class="missing" x="{from:.1}" y="{top}" width="{width:.1}" height="{BOTTOM}"/>"#
         );
         let middle = from + width / 2.0;
-        label(svg, middle, top + HEIGHT / 2.0 - 4.0, "middle", "gap below");
-        label(svg, middle, top + HEIGHT / 2.0 + 10.0, "middle", "float spacing");
+        for (line, text) in ["gap below", "spacing", "of floats"].into_iter().enumerate() {
+            label(svg, middle, top + HEIGHT / 2.0 + 14.0 * line as f64, "middle", text);
+        }
     }
 }
 

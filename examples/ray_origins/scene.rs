@@ -77,7 +77,7 @@ impl Patch {
 
     /// The point of the exact plane that is nearest to a computed hit point.
     ///
-    /// This is where the exact ray starts. The truth asks for a start within the plane, and for no particular one.
+    /// This is where the exact ray starts: the truth asks for a start in the plane, not for a certain one.
     pub fn exact(&self, p: Vec3) -> DVec3 {
         let p = p.as_dvec3();
         p - (p - self.large[0]).dot(self.n) * self.n

@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use crate::measure::{Failure, Row};
 
-/// A line for each row with trials; the gap, relative to the scale, is empty for self-hits.
+/// A line for each row; the gap, relative to the scale, is empty for self-hits.
 pub fn csv(rows: &[Row]) -> String {
     let mut text =
         String::from("failure,gap,scale,distance,method,trials,failures,failures_plain_test\n");
-    for row in rows.iter().filter(|row| row.trials > 0) {
+    for row in rows {
         let (failure, gap) = match row.failure {
             Failure::SelfHit => ("self-hit", String::new()),
             Failure::LostContact(gap) => ("lost-contact", format!("{gap:e}")),
