@@ -26,7 +26,7 @@ const DISTANCES: [f64; 14] =
 /// Where trials are made.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Place {
-    /// Half the width of the scene: its coordinates are within twice this of its centre.
+    /// The scene's coordinates are within twice this of its centre.
     pub scale: f64,
     /// From the origin to the centre.
     pub distance: f64,
