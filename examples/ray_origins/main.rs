@@ -71,6 +71,9 @@ fn main() -> ExitCode {
 
 /// Measures and writes both files.
 fn run(rays: u32, folder: &Path) -> Result<(), Box<dyn Error>> {
+    if !folder.is_dir() {
+        return Err(format!("there is no folder {}", folder.display()).into());
+    }
     let rows: Vec<_> =
         measure::places().into_iter().flat_map(|place| measure::measure(place, rays)).collect();
     for (name, text) in [

@@ -8,7 +8,7 @@ Measures false self-hits and lost contacts of three ways to move a ray's origin 
 
 Usage: ray_origins [-o DIR] [--rays N]
 
-  -o DIR     where to write ray-origins.csv and ray-origins.svg (default docs)
+  -o DIR     the folder for ray-origins.csv, ray-origins.svg and ray-origins-plain.svg (default docs)
   --rays N   rays for each point of the chart, 100 to 10000000 (default 100000)
   --help     this text
 
