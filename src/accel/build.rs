@@ -1,68 +1,93 @@
 //! [`Accel`] and how it is built.
 
-use std::time::Duration;
-
 use glam::Vec3;
-use obvhs::BvhBuildParams;
-use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2;
-use obvhs::bvh2::node::Bvh2Node;
 
 use super::Aabb;
-use super::bundle::bundle;
-use super::leaf::LeafTriangle;
+use super::lanes::LANES;
+use super::node::{Child, MOST_TRIANGLES, Node};
+use super::parallel;
+use super::part::{Part, Plan, slots};
+use super::path::Path;
+use super::split::{partition, split};
+use super::triangles::{Triangle, Triangles};
 use crate::shape::TriangleMesh;
 
 /// The triangles of a scene in a tree of boxes.
 ///
-/// obvhs builds the binary tree (PLOC, then reinsertion). Its nodes are laid out anew, two children
-/// to a node of 64 bytes, and the corners of the triangles are copied into the order of the leaves.
+/// obvhs builds binary trees (PLOC, then reinsertion). They are collapsed to nodes of sixteen children and
+/// leaves of up to sixteen triangles, which rays are tested against sixteen at a time.
 #[derive(Debug)]
 pub struct Accel {
     pub(super) nodes: Vec<Node>,
-    pub(super) leaves: Vec<LeafTriangle>,
+    pub(super) triangles: Triangles,
+    /// The number of the first triangle of each mesh.
+    pub(super) shapes: Vec<u32>,
     pub(super) bounds: Aabb,
+    pub(super) largest_coordinate: f32,
     /// The longest way from the root to a leaf, in nodes: how much a walk may have to remember.
     pub(super) depth: usize,
-}
-
-/// Both children of an inner node.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Node {
-    pub(super) min: [Vec3; 2],
-    pub(super) max: [Vec3; 2],
-    pub(super) children: [Child; 2],
-}
-
-/// What a child is: `count` triangles from `first` on, or the node `first` when `count` is 0.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Child {
-    pub(super) first: u32,
-    pub(super) count: u32,
+    pub(super) path: Path,
 }
 
 impl Accel {
-    /// Builds the tree over all triangles of all meshes. Triangles without area are left out: no ray
-    /// can hit them. The meshes must have passed [`TriangleMesh::check`].
+    /// The most triangles that a tree can be built over.
+    pub const MOST_TRIANGLES: usize = MOST_TRIANGLES - 1;
+
+    /// Builds the tree over all triangles of all meshes, on as many threads as the system offers; the tree
+    /// is the same for any number of them. Triangles without area are left out: no ray can hit them. The
+    /// meshes must have passed [`TriangleMesh::check`].
+    ///
+    /// # Panics
+    /// If there are more than [`Accel::MOST_TRIANGLES`].
     pub fn build(meshes: &[TriangleMesh]) -> Self {
+        let count: usize = meshes.iter().map(|mesh| mesh.indices.len()).sum();
+        assert!(count <= Self::MOST_TRIANGLES, "{count} triangles are more than a tree can hold");
         let mut triangles = collect(meshes);
-        let corners = triangles.iter().flat_map(|t| t.corners);
-        let bounds = corners.fold(Aabb::EMPTY, Aabb::including);
-        if triangles.is_empty() {
-            return Self { nodes: Vec::new(), leaves: Vec::new(), bounds, depth: 0 };
+        let count = partition(&mut triangles, |triangle| triangle.number != FLAT);
+        let mut shapes = Vec::with_capacity(meshes.len());
+        let mut next = 0;
+        for mesh in meshes {
+            shapes.push(next);
+            next += mesh.indices.len() as u32;
         }
-        let bundles = bundle(&mut triangles);
-        let tree = build_bvh2(&bundles, BvhBuildParams::medium_build(), &mut Duration::default());
-        let mut leaves = Vec::with_capacity(triangles.len());
-        // Where the bundles begin that the tree refers to by number.
-        let mut starts = Vec::with_capacity(bundles.len() + 1);
-        for &number in &tree.primitive_indices {
-            starts.push(leaves.len() as u32);
-            leaves.extend_from_slice(&triangles[bundles[number as usize].range()]);
+        let mut accel = Self {
+            nodes: Vec::new(),
+            triangles: Triangles::with_capacity(0),
+            shapes,
+            bounds: Aabb::EMPTY,
+            largest_coordinate: 0.0,
+            depth: 0,
+            path: Path::available().pop().unwrap_or(Path::Portable),
+        };
+        if count > 0 {
+            accel.join(parts(&mut triangles[..count]));
         }
-        starts.push(leaves.len() as u32);
-        let (nodes, depth) = lay_out(&tree, &starts);
-        Self { nodes, leaves, bounds, depth }
+        accel.triangles.finish();
+        accel.bounds = accel.nodes.first().map_or(Aabb::EMPTY, Node::bounds);
+        accel.largest_coordinate = accel.bounds.largest_coordinate();
+        accel
+    }
+
+    /// Puts a root above the parts.
+    fn join(&mut self, parts: Vec<Part>) {
+        let boxes: Vec<Aabb> =
+            parts.iter().flat_map(|p| &p.roots).map(|&(bounds, _)| bounds).collect();
+        let mut slots = slots(&boxes).into_iter();
+        self.nodes.reserve_exact(1 + parts.iter().map(|part| part.nodes.len()).sum::<usize>());
+        self.nodes.push(Node::EMPTY);
+        self.triangles = Triangles::with_capacity(parts.iter().map(|p| p.triangles.len()).sum());
+        for part in parts {
+            let first = self.nodes.len();
+            let moved = self.triangles.append(&part.triangles);
+            for ((bounds, root), slot) in part.roots.into_iter().zip(&mut slots) {
+                self.nodes[0].set(slot, &bounds, Child::moved(root, first, moved));
+            }
+            self.nodes.extend(part.nodes.into_iter().map(|mut node| {
+                node.children = node.children.map(|child| Child::moved(child, first, moved));
+                node
+            }));
+            self.depth = self.depth.max(part.depth);
+        }
     }
 
     /// The box around all triangles.
@@ -72,7 +97,7 @@ impl Accel {
 
     /// How many triangles can be hit.
     pub fn triangle_count(&self) -> usize {
-        self.leaves.len()
+        self.triangles.len()
     }
 
     /// How many nodes the tree has.
@@ -87,71 +112,62 @@ impl Accel {
 
     /// What the tree takes, with its copy of the triangles, in bytes.
     pub fn memory(&self) -> usize {
-        size_of_val(&self.nodes[..]) + size_of_val(&self.leaves[..])
+        size_of_val(&self.nodes[..]) + self.triangles.memory()
+    }
+
+    /// The instructions that rays are traced with.
+    pub fn path(&self) -> Path {
+        self.path
+    }
+
+    /// Chooses the instructions that rays are traced with: by default the fastest of those
+    /// [available](Path::available), which it takes if `path` is not one of them.
+    #[must_use]
+    pub fn with_path(mut self, path: Path) -> Self {
+        let available = Path::available();
+        self.path = if available.contains(&path) { path } else { available[available.len() - 1] };
+        self
     }
 }
 
-/// All triangles that have an area.
-fn collect(meshes: &[TriangleMesh]) -> Vec<LeafTriangle> {
-    let mut triangles = Vec::with_capacity(meshes.iter().map(|m| m.indices.len()).sum());
-    for (shape, mesh) in meshes.iter().enumerate() {
-        for triangle in 0..mesh.indices.len() {
-            if mesh.geometric_normal(triangle) != Vec3::ZERO {
-                let corners = mesh.corners(triangle);
-                triangles.push(LeafTriangle {
-                    corners,
-                    shape: shape as u32,
-                    triangle: triangle as u32,
-                });
-            }
-        }
+/// The trees of all parts of the triangles.
+fn parts(triangles: &mut [Triangle]) -> Vec<Part> {
+    let plans = parallel::map(split(triangles), Plan::new);
+    // Each part has a child of the root. The others go one by one to where they save most.
+    let mut counts = vec![1; plans.len()];
+    for _ in plans.len()..LANES {
+        let gains = plans.iter().zip(&counts).map(|(plan, &k)| plan.gain(k));
+        let best = gains.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b));
+        best.into_iter().for_each(|(i, _)| counts[i] += 1);
     }
+    let plans = plans.into_iter().zip(counts).collect();
+    parallel::map(plans, |(plan, k)| Plan::lay_out(plan, k))
+}
+
+/// The number of a triangle without area.
+const FLAT: u32 = u32::MAX;
+
+/// All triangles.
+fn collect(meshes: &[TriangleMesh]) -> Vec<Triangle> {
+    const AT_ONCE: usize = 1 << 14;
+    let count = meshes.iter().map(|mesh| mesh.indices.len()).sum();
+    let mut triangles = vec![Triangle { corners: [Vec3::ZERO; 3], number: 0 }; count];
+    let (mut rest, mut number) = (&mut triangles[..], 0);
+    let mut tasks = Vec::new();
+    for mesh in meshes {
+        let (of_mesh, others) = rest.split_at_mut(mesh.indices.len());
+        for (i, chunk) in of_mesh.chunks_mut(AT_ONCE).enumerate() {
+            tasks.push((mesh, AT_ONCE * i, number, chunk));
+        }
+        number += mesh.indices.len() as u32;
+        rest = others;
+    }
+    parallel::map(tasks, |(mesh, first, number, chunk)| {
+        for (i, triangle) in (first..).zip(chunk) {
+            triangle.corners = mesh.corners(i);
+            let is_flat = mesh.geometric_normal(i) == Vec3::ZERO;
+            triangle.number = if is_flat { FLAT } else { number + i as u32 };
+        }
+    });
     triangles
-}
-
-/// The tree's inner nodes, each with the boxes of both children, parents first; and the depth. `starts`
-/// says where the primitives of leaves begin among the triangles.
-fn lay_out(tree: &Bvh2, starts: &[u32]) -> (Vec<Node>, usize) {
-    let child = |node: &Bvh2Node| {
-        if !node.is_leaf() {
-            return Child { first: node.first_index, count: 0 };
-        }
-        let [first, end] = [node.first_index, node.first_index + node.prim_count];
-        let [first, end] = [starts[first as usize], starts[end as usize]];
-        Child { first, count: end - first }
-    };
-    if tree.nodes[0].is_leaf() {
-        // One leaf: a node that holds it twice would report hits twice, so the second child is empty.
-        let (only, none) = (&tree.nodes[0], Aabb::EMPTY);
-        let node = Node {
-            min: [only.aabb().min.into(), none.min],
-            max: [only.aabb().max.into(), none.max],
-            children: [child(only), Child { first: 0, count: 1 }],
-        };
-        return (vec![node], 1);
-    }
-    let mut nodes = Vec::with_capacity(tree.nodes.len() / 2 + 1);
-    let mut depth = 0;
-    // Each entry: where the pair of children stands in the tree, who refers to it, and how deep it is.
-    let mut open = vec![(tree.nodes[0].first_index, None::<(usize, usize)>, 1)];
-    while let Some((pair, parent, level)) = open.pop() {
-        depth = depth.max(level);
-        let place = nodes.len();
-        if let Some((node, side)) = parent {
-            let node: &mut Node = &mut nodes[node];
-            node.children[side].first = place as u32;
-        }
-        let children = [0, 1].map(|side| &tree.nodes[pair as usize + side]);
-        nodes.push(Node {
-            min: children.map(|c| c.aabb().min.into()),
-            max: children.map(|c| c.aabb().max.into()),
-            children: children.map(child),
-        });
-        for side in [1, 0] {
-            if !children[side].is_leaf() {
-                open.push((children[side].first_index, Some((place, side)), level + 1));
-            }
-        }
-    }
-    (nodes, depth)
 }

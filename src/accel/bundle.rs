@@ -6,7 +6,7 @@ use glam::Vec3A;
 use obvhs::Boundable;
 use obvhs::aabb::Aabb;
 
-use super::leaf::LeafTriangle;
+use super::triangles::Triangle;
 
 /// More triangles than this with the same box are one to the tree.
 const MOST: usize = 16;
@@ -24,7 +24,7 @@ pub struct Bundle {
 }
 
 impl Bundle {
-    fn new(triangles: &[LeafTriangle], first: usize, count: usize) -> Self {
+    fn new(triangles: &[Triangle], first: usize, count: usize) -> Self {
         let boxes = triangles[first..first + count].iter().map(bounds);
         let bounds = boxes.fold(Aabb::empty(), |all, one| all.union(&one));
         Self { first: first as u32, count: count as u32, bounds }
@@ -43,7 +43,7 @@ impl Boundable for Bundle {
 }
 
 /// Sorts the triangles into bundles. Where there are no heaps, their order is kept.
-pub fn bundle(triangles: &mut [LeafTriangle]) -> Vec<Bundle> {
+pub fn bundle(triangles: &mut [Triangle]) -> Vec<Bundle> {
     let mut keys: Vec<u64> = triangles.iter().map(key).collect();
     keys.sort_unstable();
     if keys.len() <= MOST || keys.windows(MOST + 1).all(|run| run[0] != run[MOST]) {
@@ -63,13 +63,13 @@ pub fn bundle(triangles: &mut [LeafTriangle]) -> Vec<Bundle> {
     bundles
 }
 
-fn bounds(triangle: &LeafTriangle) -> Aabb {
+fn bounds(triangle: &Triangle) -> Aabb {
     let [a, b, c] = triangle.corners.map(Vec3A::from);
     Aabb { min: a.min(b).min(c), max: a.max(b).max(c) }
 }
 
 /// A number that equal boxes share. Others may share it too, which costs a little time and no hit.
-fn key(triangle: &LeafTriangle) -> u64 {
+fn key(triangle: &Triangle) -> u64 {
     let bounds = bounds(triangle);
     let numbers = bounds.min.to_array().into_iter().chain(bounds.max.to_array());
     // FNV-1a over words, rotated so that upper bits come down.

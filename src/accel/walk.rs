@@ -1,213 +1,207 @@
-//! How rays walk the tree.
+//! How one ray walks the tree.
 
-use glam::Vec3;
-
-use super::Accel;
-use super::build::{Child, Node};
-use super::leaf::LeafTriangle;
+use super::lanes::{LANES, Lanes, Mask};
+use super::needle::{Needle, hit};
+use super::node::Child;
+use super::slabs::Slabs;
+use super::stack::Stack;
+use super::triangles::Leaf;
+use super::{Accel, Hit};
 use crate::geometry::Ray;
-use crate::geometry::float::gamma;
-use crate::shape::ShearedRay;
+use crate::shape::{ShearedRay, TriangleHit};
 
-/// Where a ray meets a triangle first. Everything else about the hit is found from it on demand.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// Distance in lengths of the ray's direction; infinite for a ray that hits nothing.
-    pub t: f32,
-    /// Barycentric weights of the triangle's corners.
-    pub b: [f32; 3],
-    /// Which mesh of those that the tree was built from.
-    pub shape: u32,
-    /// Which triangle of that mesh.
-    pub triangle: u32,
+/// A triangle in a leaf.
+#[derive(Clone, Copy)]
+struct Place {
+    first: u32,
+    count: usize,
+    lane: u32,
+    number: u32,
 }
-
-impl Hit {
-    /// What a ray gets that hits nothing.
-    pub const MISS: Self =
-        Self { t: f32::INFINITY, b: [0.0; 3], shape: u32::MAX, triangle: u32::MAX };
-
-    /// Whether the ray hit something.
-    #[inline]
-    pub fn is_hit(&self) -> bool {
-        self.shape != u32::MAX
-    }
-}
-
-/// Trees up to this depth are walked with a stack in place; deeper ones, which only degenerate scenes
-/// have, with one on the heap that serves a whole batch.
-const STACK: usize = 64;
-
-/// A child that waits, and where the ray enters its box.
-type Waiting = (Child, f32);
 
 impl Accel {
-    /// The closest hit of each ray.
-    ///
-    /// # Panics
-    /// If `hits` is not as long as `rays`.
-    pub fn intersect(&self, rays: &[Ray], hits: &mut [Hit]) {
-        assert_eq!(rays.len(), hits.len());
-        self.with_stack(|stack| {
-            for (ray, hit) in rays.iter().zip(hits) {
-                *hit = self.closest(stack, ray);
-            }
-        });
+    /// The closest hit of one ray.
+    #[inline(always)]
+    pub(super) fn closest<L: Lanes>(&self, stack: &mut Stack, ray: &Ray) -> Hit {
+        match self.find::<L, false>(stack, ray) {
+            Ok(hit) => hit,
+            Err(Unsure) => self.surely_closest(stack, ray),
+        }
     }
 
-    /// Whether each ray hits anything.
-    ///
-    /// # Panics
-    /// If `occluded` is not as long as `rays`.
-    pub fn occluded(&self, rays: &[Ray], occluded: &mut [bool]) {
-        assert_eq!(rays.len(), occluded.len());
-        self.with_stack(|stack| {
-            for (ray, occluded) in rays.iter().zip(occluded) {
-                *occluded = self.any(stack, ray);
-            }
-        });
+    #[cold]
+    #[inline(never)]
+    fn surely_closest(&self, stack: &mut Stack, ray: &Ray) -> Hit {
+        self.surely_closest_of_one(stack, ray)
     }
 
-    /// The closest hit of one ray. Of two at the same distance, the one of the first triangle counts.
-    pub fn intersect1(&self, ray: &Ray) -> Hit {
-        self.with_stack(|stack| self.closest(stack, ray))
+    /// The closest hit. The bound on the error of t is asked of each triangle if `SURE`, else only of the
+    /// nearest in the end, which nearly always passes.
+    #[inline(always)]
+    pub(super) fn find<L: Lanes, const SURE: bool>(
+        &self,
+        stack: &mut Stack,
+        ray: &Ray,
+    ) -> Result<Hit, Unsure> {
+        let sheared = ShearedRay::new(ray);
+        if self.nodes.is_empty() || !is_sound(ray, &sheared) {
+            return Ok(Hit::MISS);
+        }
+        let needle = Needle::<L>::new(&sheared, ray.t_min);
+        let mut slabs = Slabs::<L>::new(ray, self.largest_coordinate);
+        let mut t_max = ray.t_max;
+        let mut nearest: Option<Place> = None;
+        let mut waiting = 0;
+        let mut node = &self.nodes[0];
+        'nodes: loop {
+            let (lanes, enters) = slabs.enters(node);
+            let mut child;
+            if lanes != 0 {
+                // The nearest child is the last lane; the others wait.
+                let lane = Mask::BITS - 1 - lanes.leading_zeros();
+                child = node.children[(lane ^ slabs.flip) as usize % LANES];
+                let others = lanes ^ 1 << lane;
+                waiting = enters.push(stack, waiting, others, &node.children, slabs.flip);
+            } else if let Some(next) = pop(stack, &mut waiting, t_max) {
+                child = next;
+            } else {
+                break;
+            }
+            loop {
+                let (first, count) = match Child::new(child) {
+                    Child::Node(number) => {
+                        node = &self.nodes[number as usize];
+                        continue 'nodes;
+                    }
+                    Child::Leaf { first, count } => (first, count),
+                };
+                let leaf = self.triangles.leaf(first, count);
+                if let Some(met) = needle.meets(leaf, t_max) {
+                    let mut lanes = met.lanes;
+                    while lanes != 0 {
+                        let lane = lanes.trailing_zeros();
+                        lanes &= lanes - 1;
+                        let mut t = met.t.lane(lane);
+                        if SURE || met.unsure >> lane & 1 == 1 {
+                            let hit = hit_apart(&sheared, leaf, lane, ray.t_min, t_max);
+                            let Some(hit) = hit else { continue };
+                            t = hit.t;
+                        }
+                        let number = self.triangles.number(first + lane);
+                        // Of two at the same distance the first triangle counts.
+                        if t < t_max || t == t_max && nearest.is_none_or(|n| number < n.number) {
+                            t_max = t;
+                            slabs.shorten(t);
+                            nearest = Some(Place { first, count, lane, number });
+                        }
+                    }
+                }
+                match pop(stack, &mut waiting, t_max) {
+                    Some(next) => child = next,
+                    None => break 'nodes,
+                }
+            }
+        }
+        let Some(place) = nearest else { return Ok(Hit::MISS) };
+        let leaf = self.triangles.leaf(place.first, place.count);
+        let hit = hit(&sheared, leaf, place.lane, ray.t_min, ray.t_max).ok_or(Unsure)?;
+        let (shape, triangle) = self.outside(place.number);
+        Ok(Hit { t: hit.t, b: hit.b, shape, triangle })
     }
 
     /// Whether one ray hits anything.
-    pub fn occluded1(&self, ray: &Ray) -> bool {
-        self.with_stack(|stack| self.any(stack, ray))
-    }
-
-    fn closest(&self, stack: &mut [Waiting], ray: &Ray) -> Hit {
+    #[inline(always)]
+    pub(super) fn any<L: Lanes>(&self, stack: &mut Stack, ray: &Ray) -> bool {
         let sheared = ShearedRay::new(ray);
-        let mut closest = Hit::MISS;
-        self.walk(stack, ray, |leaf, t_max| {
-            for triangle in leaf {
-                let Some(found) = sheared.intersect(&triangle.corners, ray.t_min, *t_max) else {
-                    continue;
-                };
-                let number = (triangle.shape, triangle.triangle);
-                if found.t < *t_max
-                    || !closest.is_hit()
-                    || number < (closest.shape, closest.triangle)
-                {
-                    *t_max = found.t;
-                    closest = Hit { t: found.t, b: found.b, shape: number.0, triangle: number.1 };
-                }
-            }
-            false
-        });
-        closest
-    }
-
-    fn any(&self, stack: &mut [Waiting], ray: &Ray) -> bool {
-        let sheared = ShearedRay::new(ray);
-        let mut found = false;
-        self.walk(stack, ray, |leaf, t_max| {
-            found = leaf.iter().any(|t| sheared.intersect(&t.corners, ray.t_min, *t_max).is_some());
-            found
-        });
-        found
-    }
-
-    /// Calls `act` with room for as many waiting children as the tree is deep.
-    #[inline]
-    fn with_stack<R>(&self, act: impl FnOnce(&mut [Waiting]) -> R) -> R {
-        const NONE: Waiting = (Child { first: 0, count: 0 }, 0.0);
-        if self.depth <= STACK { act(&mut [NONE; STACK]) } else { act(&mut vec![NONE; self.depth]) }
-    }
-
-    /// Visits the leaves that the ray may meet, near ones first, until `visit` returns true. `visit`
-    /// may shorten the ray.
-    #[inline]
-    fn walk(
-        &self,
-        stack: &mut [Waiting],
-        ray: &Ray,
-        mut visit: impl FnMut(&[LeafTriangle], &mut f32) -> bool,
-    ) {
-        let Some(mut node) = self.nodes.first() else { return };
-        let slabs = Slabs::new(ray, self.bounds.largest_coordinate());
-        let mut t_max = ray.t_max;
+        if self.nodes.is_empty() || !is_sound(ray, &sheared) {
+            return false;
+        }
+        let needle = Needle::<L>::new(&sheared, ray.t_min);
+        let slabs = Slabs::<L>::new(ray, self.largest_coordinate);
         let mut waiting = 0;
-        loop {
-            let [mut near, mut far] =
-                [0, 1].map(|side| (node.children[side], slabs.enter(node, side, t_max)));
-            if far.1 < near.1 {
-                (near, far) = (far, near);
+        let mut node = &self.nodes[0];
+        'nodes: loop {
+            let lanes = slabs.meets(node);
+            let mut child;
+            if lanes != 0 {
+                let lane = lanes.trailing_zeros();
+                child = node.children[lane as usize % LANES];
+                let others = lanes & (lanes - 1);
+                waiting = L::splat(0.0).push(stack, waiting, others, &node.children, 0);
+            } else if let Some(next) = pop(stack, &mut waiting, f32::INFINITY) {
+                child = next;
+            } else {
+                return false;
             }
-            // A box that is missed is infinitely far away.
-            if far.1 < f32::INFINITY {
-                stack[waiting] = far;
-                waiting += 1;
-            }
-            let mut next = near;
-            node = loop {
-                if next.1 <= t_max && next.1 < f32::INFINITY {
-                    if next.0.count == 0 {
-                        break &self.nodes[next.0.first as usize];
+            loop {
+                let (first, count) = match Child::new(child) {
+                    Child::Node(number) => {
+                        node = &self.nodes[number as usize];
+                        continue 'nodes;
                     }
-                    let first = next.0.first as usize;
-                    if visit(&self.leaves[first..first + next.0.count as usize], &mut t_max) {
-                        return;
+                    Child::Leaf { first, count } => (first, count),
+                };
+                let leaf = self.triangles.leaf(first, count);
+                if let Some(met) = needle.meets(leaf, ray.t_max) {
+                    let mut lanes = met.lanes;
+                    while lanes != 0 {
+                        let lane = lanes.trailing_zeros();
+                        if hit_apart(&sheared, leaf, lane, ray.t_min, ray.t_max).is_some() {
+                            return true;
+                        }
+                        lanes &= lanes - 1;
                     }
                 }
-                if waiting == 0 {
-                    return;
+                match pop(stack, &mut waiting, f32::INFINITY) {
+                    Some(next) => child = next,
+                    None => return false,
                 }
-                waiting -= 1;
-                next = stack[waiting];
-            };
+            }
+        }
+    }
+
+    /// The mesh of a triangle, and its number there.
+    #[inline(always)]
+    pub(super) fn outside(&self, number: u32) -> (u32, u32) {
+        let shape = match &self.shapes[..] {
+            [_] => 0,
+            shapes => shapes.partition_point(|&first| first <= number) - 1,
+        };
+        (shape as u32, number - self.shapes[shape])
+    }
+}
+
+/// The nearest triangle did not pass the bound on the error of t: rounding may have made it up.
+pub(super) struct Unsure;
+
+/// The next child that the ray enters before `t_max`.
+#[inline(always)]
+fn pop(stack: &Stack, waiting: &mut usize, t_max: f32) -> Option<u32> {
+    loop {
+        *waiting = waiting.checked_sub(1)?;
+        let (child, enter) = stack.get(*waiting);
+        if enter <= t_max {
+            return Some(child);
         }
     }
 }
 
-/// A ray prepared for boxes.
-///
-/// A ray may meet a triangle, as the triangle test rounds, where it just misses the triangle's box.
-/// So every box is taken to be larger by a bound on that error, and hits are never lost. The bound
-/// is moved into the origin, once for the planes where rays enter and once for those where they leave.
-struct Slabs {
-    origin_in: Vec3,
-    origin_out: Vec3,
-    inverse: Vec3,
-    /// Which axes the ray runs along backwards; told from the sign bit, so that -0 counts.
-    backwards: [bool; 3],
+/// Whether the ray is made of numbers and has a direction. No triangle is met by one that is not, and
+/// every box would be.
+#[inline(always)]
+fn is_sound(ray: &Ray, sheared: &ShearedRay) -> bool {
+    let [x, y, z] = sheared.shear;
+    !(x + y + z).is_nan() && (ray.o.x + ray.o.y + ray.o.z).is_finite()
+}
+
+/// [`hit`] out of the way of the vectors of a walk.
+#[inline(never)]
+fn hit_apart(
+    sheared: &ShearedRay,
+    leaf: Leaf,
+    lane: u32,
     t_min: f32,
-}
-
-impl Slabs {
-    #[inline]
-    fn new(ray: &Ray, largest_coordinate: f32) -> Self {
-        // Moving the corners to the ray's origin and shearing them costs up to four roundings of
-        // numbers no larger than the distance from the origin to the corner.
-        let reach = largest_coordinate + ray.o.abs().max_element();
-        let padding = Vec3::splat(4.0 * f32::EPSILON * reach).copysign(ray.d);
-        Self {
-            origin_in: ray.o + padding,
-            origin_out: ray.o - padding,
-            inverse: ray.d.recip(),
-            backwards: ray.d.to_array().map(f32::is_sign_negative),
-            t_min: ray.t_min,
-        }
-    }
-
-    /// Where the ray enters a child's box, or infinity if it misses it before `t_max`.
-    ///
-    /// The slab test of Ize 2013, "Robust BVH Ray Traversal": comparisons are written such that NaN,
-    /// from 0 · ∞ when the ray runs within a plane of the box, leaves the interval as it is.
-    #[inline]
-    fn enter(&self, node: &Node, side: usize, t_max: f32) -> f32 {
-        let (mut enter, mut leave) = (self.t_min, t_max);
-        let (min, max) = (node.min[side], node.max[side]);
-        for axis in 0..3 {
-            let (plane_in, plane_out) =
-                if self.backwards[axis] { (max[axis], min[axis]) } else { (min[axis], max[axis]) };
-            let t_in = (plane_in - self.origin_in[axis]) * self.inverse[axis];
-            let t_out = (plane_out - self.origin_out[axis]) * self.inverse[axis];
-            enter = if t_in > enter { t_in } else { enter };
-            leave = if t_out < leave { t_out } else { leave };
-        }
-        if enter <= leave * (1.0 + 2.0 * gamma(3)) { enter } else { f32::INFINITY }
-    }
+    t_max: f32,
+) -> Option<TriangleHit> {
+    hit(sheared, leaf, lane, t_min, t_max)
 }

@@ -35,8 +35,8 @@ pub enum SceneError {
         /// The name it asks for.
         material: String,
     },
-    /// More triangles than a `u32` can count.
-    #[error("the scene has {0} triangles, more than {max}", max = u32::MAX)]
+    /// More triangles than [`Accel::MOST_TRIANGLES`].
+    #[error("the scene has {0} triangles, more than {max}", max = Accel::MOST_TRIANGLES)]
     TooManyTriangles(usize),
     /// A mesh is broken.
     #[error("shape {0:?}: {1}")]
@@ -157,7 +157,7 @@ impl SceneBuilder {
             meshes.push(mesh);
         }
         let triangles = meshes.iter().map(|mesh| mesh.indices.len()).sum();
-        if u32::try_from(triangles).is_err() {
+        if triangles > Accel::MOST_TRIANGLES {
             return Err(SceneError::TooManyTriangles(triangles));
         }
         let start = Instant::now();

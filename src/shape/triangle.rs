@@ -1,6 +1,6 @@
 //! The triangle: its normal, and whether and where a ray meets it.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3, Vec3A, Vec3Swizzles};
 
 use crate::geometry::Ray;
 use crate::geometry::float::gamma;
@@ -30,11 +30,12 @@ fn triangle_normal_f64(corners: [Vec3; 3]) -> Vec3 {
 /// A ray prepared for the triangle test: shear and permutation that turn it into the +z axis.
 #[derive(Clone, Copy, Debug)]
 pub struct ShearedRay {
-    o: Vec3,
+    /// The origin, by the axes below.
+    pub(crate) o: [f32; 3],
     /// The axes that become x, y and z; z is where the direction is longest.
-    axes: [usize; 3],
+    pub(crate) axes: [usize; 3],
     /// What is added to x and y in proportion to z, and the factor of z.
-    shear: Vec3,
+    pub(crate) shear: [f32; 3],
 }
 
 /// Where a ray meets a triangle.
@@ -59,8 +60,10 @@ impl ShearedRay {
             2
         };
         let axes = [(z + 1) % 3, (z + 2) % 3, z];
-        let [dx, dy, dz] = axes.map(|axis| ray.d[axis]);
-        Self { o: ray.o, axes, shear: Vec3::new(-dx / dz, -dy / dz, 1.0 / dz) }
+        let (d, o) = (ray.d.to_array(), ray.o.to_array());
+        let [x, y, z] = axes;
+        let shear = Vec3A::new(-d[x], -d[y], 1.0) / d[z];
+        Self { o: [o[x], o[y], o[z]], axes, shear: shear.to_array() }
     }
 
     /// The hit with t in `[t_min, t_max]`, if there is one that rounding cannot have made up.
@@ -72,53 +75,70 @@ impl ShearedRay {
     /// exactly zero is computed again in f64, which has room for the exact products.
     #[inline]
     pub fn intersect(&self, corners: &[Vec3; 3], t_min: f32, t_max: f32) -> Option<TriangleHit> {
-        let [a, b, c] = corners.map(|p| self.to_ray_space(p));
-        let (mut e0, mut e1, mut e2) = (edge(b, c), edge(c, a), edge(a, b));
-        if e0 == 0.0 || e1 == 0.0 || e2 == 0.0 {
-            (e0, e1, e2) = (edge_f64(b, c), edge_f64(c, a), edge_f64(a, b));
+        let corners = corners.map(|corner| corner.to_array());
+        self.intersect_at(|corner, axis| corners[corner][axis], t_min, t_max)
+    }
+
+    /// [`ShearedRay::intersect`] for corners that are kept in any way: `coordinate` tells them by
+    /// corner and axis.
+    #[inline]
+    pub(crate) fn intersect_at(
+        &self,
+        coordinate: impl Fn(usize, usize) -> f32,
+        t_min: f32,
+        t_max: f32,
+    ) -> Option<TriangleHit> {
+        // One coordinate of all three corners at a time, in the space where the ray starts at the origin
+        // and runs along +z; z is not scaled yet.
+        let along = |i: usize| {
+            let axis = self.axes[i];
+            let p = Vec3A::new(coordinate(0, axis), coordinate(1, axis), coordinate(2, axis));
+            p - Vec3A::splat(self.o[i])
+        };
+        let (x, y, z) = (along(0), along(1), along(2));
+        let x = x + self.shear[0] * z;
+        let y = y + self.shear[1] * z;
+        // The edge opposite to each corner.
+        let mut e = x.yzx() * y.zxy() - y.yzx() * x.zxy();
+        if e.cmpeq(Vec3A::ZERO).any() {
+            e = edges_f64(x, y);
         }
-        if (e0 < 0.0 || e1 < 0.0 || e2 < 0.0) && (e0 > 0.0 || e1 > 0.0 || e2 > 0.0) {
+        if e.cmplt(Vec3A::ZERO).any() && e.cmpgt(Vec3A::ZERO).any() {
             return None;
         }
-        let determinant = e0 + e1 + e2;
+        let determinant = sum(e);
         if determinant == 0.0 {
             return None;
         }
         // z is scaled only here: most triangles have been left by now.
-        let z = Vec3::new(a.z, b.z, c.z) * self.shear.z;
-        let t_scaled = e0 * z.x + e1 * z.y + e2 * z.z;
-        let t = t_scaled / determinant;
-        let e = Vec3::new(e0, e1, e2);
-        let in_range = t >= t_min && t <= t_max && t > least_t([a, b, c], z, e, determinant);
+        let z_scaled = z * self.shear[2];
+        let t = sum(e * z_scaled) / determinant;
+        let in_range = t >= t_min && t <= t_max && t > least_t([x, y, z], z_scaled, e, determinant);
         in_range.then(|| TriangleHit { t, b: (e / determinant).to_array() })
     }
-
-    /// A point in the space where the ray starts at the origin and runs along +z; z is not scaled yet.
-    #[inline]
-    fn to_ray_space(self, p: Vec3) -> Vec3 {
-        let p = p - self.o;
-        let [x, y, z] = self.axes.map(|axis| p[axis]);
-        Vec3::new(x + self.shear.x * z, y + self.shear.y * z, z)
-    }
 }
 
-/// Twice the signed area of the triangle (origin, p, q) seen along z.
+/// The sum, from x to z.
 #[inline]
-fn edge(p: Vec3, q: Vec3) -> f32 {
-    p.x * q.y - p.y * q.x
+fn sum(v: Vec3A) -> f32 {
+    v.x + v.y + v.z
 }
 
-/// [`edge`] with the sign of the exact value: both products fit into an f64.
+/// The edge functions, twice the signed areas of (origin, p, q) seen along z, with the signs of the exact
+/// values: both products fit into an f64.
 #[cold]
-fn edge_f64(p: Vec3, q: Vec3) -> f32 {
-    let difference = f64::from(p.x) * f64::from(q.y) - f64::from(p.y) * f64::from(q.x);
-    // A value too small for f32 must not become zero.
-    let rounded = difference as f32;
-    if rounded == 0.0 && difference != 0.0 {
-        f32::MIN_POSITIVE.copysign(difference as f32)
-    } else {
-        rounded
-    }
+fn edges_f64(x: Vec3A, y: Vec3A) -> Vec3A {
+    let edge = |p: usize, q: usize| {
+        let difference = f64::from(x[p]) * f64::from(y[q]) - f64::from(y[p]) * f64::from(x[q]);
+        // A value too small for f32 must not become zero.
+        let rounded = difference as f32;
+        if rounded == 0.0 && difference != 0.0 {
+            f32::MIN_POSITIVE.copysign(difference as f32)
+        } else {
+            rounded
+        }
+    };
+    Vec3A::new(edge(1, 2), edge(2, 0), edge(0, 1))
 }
 
 /// The bound on the error of t: a hit at or below it may lie behind the origin
@@ -127,12 +147,9 @@ fn edge_f64(p: Vec3, q: Vec3) -> f32 {
 /// The shear adds z in proportion to x and y before z is scaled, so that its error goes with z as it is.
 /// PBRT takes the scaled z, which is the same only for directions of unit length.
 #[inline]
-fn least_t(corners: [Vec3; 3], z: Vec3, e: Vec3, determinant: f32) -> f32 {
-    let max_of = |values: [f32; 3]| values[0].abs().max(values[1].abs()).max(values[2].abs());
-    let max_x = max_of(corners.map(|p| p.x));
-    let max_y = max_of(corners.map(|p| p.y));
-    let max_unscaled_z = max_of(corners.map(|p| p.z));
-    let max_z = z.abs().max_element();
+fn least_t([x, y, z]: [Vec3A; 3], z_scaled: Vec3A, e: Vec3A, determinant: f32) -> f32 {
+    let [max_x, max_y, max_unscaled_z] = [x, y, z].map(|v| v.abs().max_element());
+    let max_z = z_scaled.abs().max_element();
     let delta_z = gamma(3) * max_z;
     let delta_x = gamma(5) * (max_x + max_unscaled_z);
     let delta_y = gamma(5) * (max_y + max_unscaled_z);

@@ -85,7 +85,8 @@ fn triangles_in_one_place() {
 }
 
 /// Sizes and places in geometric progression make deep trees: each level holds one triangle and all of
-/// the rest. Caught: a stack of fixed size 16.
+/// the rest. Caught: no limit to the depth, so that
+/// the stack is overrun.
 #[test]
 fn deep_trees_are_walked() {
     let triangle = |size: f32, place: f32| {
@@ -121,7 +122,8 @@ fn deep_trees_are_walked() {
             assert_same(&accel, &meshes, &ray, &format!("progression {number}, trial {trial}"));
         }
     }
-    assert!(deepest > 64, "the deepest tree has {deepest} levels, too few for this test");
+    // Deeper than where the tree stops to be the cheapest, and never too deep for the stack.
+    assert!((10..=16).contains(&deepest), "the deepest tree has {deepest} levels");
 }
 
 /// Rays that are none hit nothing, and end. Caught: comparisons turned round in the triangle

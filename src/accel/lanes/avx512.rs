@@ -1,0 +1,112 @@
+//! [`Lanes`] in the instructions of AVX-512.
+
+use std::arch::x86_64::*;
+
+use super::{LANES, Lanes, Mask};
+use crate::accel::stack::Stack;
+
+/// Sixteen f32 in a register. Only code that [`super::super::path::Path::Avx512`] leads to may touch
+/// one: each `unsafe` below is the use of an instruction that such a processor has.
+#[derive(Clone, Copy)]
+pub struct Avx512(__m512);
+
+/// Defines functions of one or two vectors, each one instruction.
+macro_rules! instructions {
+    ($($name:ident($($argument:ident),*) -> $result:ty = $instruction:expr;)*) => {$(
+        #[inline(always)]
+        fn $name(self, $($argument: Self),*) -> $result {
+            // SAFETY: the processor has AVX-512, by the promise of the type.
+            unsafe { $instruction(self.0, $($argument.0),*) }.into()
+        }
+    )*};
+}
+
+impl From<__m512> for Avx512 {
+    #[inline(always)]
+    fn from(x: __m512) -> Self {
+        Self(x)
+    }
+}
+
+impl Lanes for Avx512 {
+    instructions! {
+        add(other) -> Self = _mm512_add_ps;
+        sub(other) -> Self = _mm512_sub_ps;
+        mul(other) -> Self = _mm512_mul_ps;
+        div(other) -> Self = _mm512_div_ps;
+        min(other) -> Self = _mm512_min_ps;
+        max(other) -> Self = _mm512_max_ps;
+        abs() -> Self = _mm512_abs_ps;
+        le(other) -> Mask = _mm512_cmp_ps_mask::<_CMP_LE_OQ>;
+        lt(other) -> Mask = _mm512_cmp_ps_mask::<_CMP_LT_OQ>;
+        eq(other) -> Mask = _mm512_cmp_ps_mask::<_CMP_EQ_OQ>;
+    }
+    #[inline(always)]
+    fn splat(x: f32) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm512_set1_ps(x) })
+    }
+    #[inline(always)]
+    fn load(x: &[f32; LANES]) -> Self {
+        // SAFETY: as above; the array has all lanes.
+        Self(unsafe { _mm512_loadu_ps(x.as_ptr()) })
+    }
+    #[inline(always)]
+    unsafe fn load_from(x: *const f32) -> Self {
+        // SAFETY: as above; the caller promises the numbers.
+        Self(unsafe { _mm512_loadu_ps(x) })
+    }
+    #[inline(always)]
+    fn to_array(self) -> [f32; LANES] {
+        let mut x = [0.0; LANES];
+        // SAFETY: as above; the array has room for all lanes.
+        unsafe { _mm512_storeu_ps(x.as_mut_ptr(), self.0) };
+        x
+    }
+    #[inline(always)]
+    fn or(self, mask: Mask, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm512_mask_mov_ps(self.0, mask, other.0) })
+    }
+    #[inline(always)]
+    fn lane(self, lane: u32) -> f32 {
+        // SAFETY: as above.
+        unsafe { _mm512_cvtss_f32(_mm512_maskz_compress_ps(1 << lane, self.0)) }
+    }
+    #[inline(always)]
+    fn flipped(self, flip: u32) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm512_permutexvar_ps(flips(flip), self.0) })
+    }
+    #[inline(always)]
+    fn push(
+        self,
+        stack: &mut Stack,
+        len: usize,
+        mask: Mask,
+        children: &[u32; LANES],
+        flip: u32,
+    ) -> usize {
+        let (waiting, enters) = stack.room(len);
+        // SAFETY: as above; the arrays have all lanes. Lanes after those of the mask are overwritten by
+        // the next push, and never read.
+        unsafe {
+            let children = _mm512_loadu_si512(children.as_ptr().cast());
+            let children = _mm512_permutexvar_epi32(flips(flip), children);
+            let children = _mm512_maskz_compress_epi32(mask, children);
+            _mm512_storeu_si512(waiting.as_mut_ptr().cast(), children);
+            _mm512_storeu_ps(enters.as_mut_ptr(), _mm512_maskz_compress_ps(mask, self.0));
+        }
+        len + mask.count_ones() as usize
+    }
+}
+
+/// `i ^ flip` for each lane i.
+#[inline(always)]
+fn flips(flip: u32) -> __m512i {
+    // SAFETY: called from above.
+    unsafe {
+        let lanes = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
+        _mm512_xor_si512(lanes, _mm512_set1_epi32(flip as i32))
+    }
+}

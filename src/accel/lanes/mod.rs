@@ -1,0 +1,70 @@
+//! Sixteen numbers at a time, by the widest instructions that the processor has.
+//!
+//! All walks are written once, over [`Lanes`]. Each operation is the IEEE 754 operation of each lane, and
+//! none is fused, so that every implementation gives the same bits as f32 does.
+
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+mod portable;
+
+#[cfg(target_arch = "x86_64")]
+pub use avx512::Avx512;
+pub use portable::Portable;
+
+use super::stack::Stack;
+
+/// How many lanes there are: children of a node, triangles of a leaf, rays of a packet.
+pub const LANES: usize = 16;
+
+/// One bit for each lane.
+pub type Mask = u16;
+
+/// Sixteen f32.
+pub trait Lanes: Copy {
+    fn splat(x: f32) -> Self;
+    fn load(x: &[f32; LANES]) -> Self;
+    /// Sixteen numbers from `x` on.
+    ///
+    /// # Safety
+    /// They have to be there.
+    unsafe fn load_from(x: *const f32) -> Self;
+    fn to_array(self) -> [f32; LANES];
+    fn add(self, other: Self) -> Self;
+    fn sub(self, other: Self) -> Self;
+    fn mul(self, other: Self) -> Self;
+    fn div(self, other: Self) -> Self;
+    /// The smaller; `other` where one is NaN.
+    fn min(self, other: Self) -> Self;
+    /// The larger; `other` where one is NaN.
+    fn max(self, other: Self) -> Self;
+    fn abs(self) -> Self;
+    /// Whether `self <= other`; not where one is NaN.
+    fn le(self, other: Self) -> Mask;
+    /// Whether `self < other`; not where one is NaN.
+    fn lt(self, other: Self) -> Mask;
+    /// Whether both are equal; not where one is NaN.
+    fn eq(self, other: Self) -> Mask;
+    /// `other` in the lanes of `mask`.
+    fn or(self, mask: Mask, other: Self) -> Self;
+    /// The number in a lane.
+    fn lane(self, lane: u32) -> f32;
+    /// Lane `i` becomes lane `i ^ flip`.
+    fn flipped(self, flip: u32) -> Self;
+    /// Puts the children in the lanes of `mask`, after lanes were flipped as by [`Lanes::flipped`], on the
+    /// stack, where `len` wait already, the lowest lane lowest. `self` says where the ray enters them, and
+    /// is flipped already. How many wait then.
+    fn push(
+        self,
+        stack: &mut Stack,
+        len: usize,
+        mask: Mask,
+        children: &[u32; LANES],
+        flip: u32,
+    ) -> usize;
+}
+
+/// Each of three numbers in all lanes. Written out, because `map` is not always inlined.
+#[inline(always)]
+pub fn splat3<L: Lanes>([x, y, z]: [f32; 3]) -> [L; 3] {
+    [L::splat(x), L::splat(y), L::splat(z)]
+}

@@ -1,0 +1,113 @@
+//! [`Lanes`] in plain Rust, which compilers turn into the vectors of the target.
+
+use std::array::from_fn;
+
+use super::{LANES, Lanes, Mask};
+use crate::accel::stack::Stack;
+
+#[derive(Clone, Copy)]
+pub struct Portable([f32; LANES]);
+
+impl Portable {
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f32, f32) -> f32) -> Self {
+        Self(from_fn(|i| f(self.0[i], other.0[i])))
+    }
+
+    #[inline(always)]
+    fn mask(self, other: Self, f: impl Fn(f32, f32) -> bool) -> Mask {
+        (0..LANES).fold(0, |mask, i| mask | Mask::from(f(self.0[i], other.0[i])) << i)
+    }
+}
+
+impl Lanes for Portable {
+    #[inline(always)]
+    fn splat(x: f32) -> Self {
+        Self([x; LANES])
+    }
+    #[inline(always)]
+    fn load(x: &[f32; LANES]) -> Self {
+        Self(*x)
+    }
+    #[inline(always)]
+    unsafe fn load_from(x: *const f32) -> Self {
+        // SAFETY: the caller promises the numbers.
+        Self(unsafe { x.cast::<[f32; LANES]>().read_unaligned() })
+    }
+    #[inline(always)]
+    fn to_array(self) -> [f32; LANES] {
+        self.0
+    }
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.zip(other, |a, b| a - b)
+    }
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.zip(other, |a, b| a * b)
+    }
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.zip(other, |a, b| a / b)
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a < b { a } else { b })
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a > b { a } else { b })
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.map(f32::abs))
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> Mask {
+        self.mask(other, |a, b| a <= b)
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> Mask {
+        self.mask(other, |a, b| a < b)
+    }
+    #[inline(always)]
+    fn eq(self, other: Self) -> Mask {
+        self.mask(other, |a, b| a == b)
+    }
+    #[inline(always)]
+    fn or(self, mask: Mask, other: Self) -> Self {
+        Self(from_fn(|i| if mask >> i & 1 == 1 { other.0[i] } else { self.0[i] }))
+    }
+    #[inline(always)]
+    fn lane(self, lane: u32) -> f32 {
+        self.0[lane as usize % LANES]
+    }
+    #[inline(always)]
+    fn flipped(self, flip: u32) -> Self {
+        Self(from_fn(|i| self.0[(i ^ flip as usize) % LANES]))
+    }
+    #[inline(always)]
+    fn push(
+        self,
+        stack: &mut Stack,
+        len: usize,
+        mut mask: Mask,
+        children: &[u32; LANES],
+        flip: u32,
+    ) -> usize {
+        let (waiting, enters) = stack.room(len);
+        let mut count = 0;
+        while mask != 0 {
+            let lane = mask.trailing_zeros();
+            waiting[count % LANES] = children[(lane ^ flip) as usize % LANES];
+            enters[count % LANES] = self.lane(lane);
+            mask &= mask - 1;
+            count += 1;
+        }
+        len + count
+    }
+}

@@ -1,0 +1,102 @@
+//! [`Path`]: which instructions rays are traced with, and the way from the outside to them.
+
+#[cfg(target_arch = "x86_64")]
+use super::lanes::Avx512;
+use super::lanes::Portable;
+use super::stack::Stack;
+use super::{Accel, Hit};
+use crate::geometry::Ray;
+
+/// The instructions that rays are traced with. All give the same hits to the bit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Path {
+    /// What every processor of the target has.
+    Portable,
+    /// AVX2.
+    Avx2,
+    /// AVX-512 with its extensions VL, BW and DQ.
+    Avx512,
+}
+
+impl Path {
+    /// Those that this processor has, the fastest last.
+    pub fn available() -> Vec<Self> {
+        let mut paths = vec![Self::Portable];
+        #[cfg(target_arch = "x86_64")]
+        {
+            let has = [
+                is_x86_feature_detected!("avx2"),
+                is_x86_feature_detected!("bmi1"),
+                is_x86_feature_detected!("bmi2"),
+                is_x86_feature_detected!("lzcnt"),
+                is_x86_feature_detected!("popcnt"),
+            ];
+            let has_512 = [
+                is_x86_feature_detected!("avx512f"),
+                is_x86_feature_detected!("avx512vl"),
+                is_x86_feature_detected!("avx512bw"),
+                is_x86_feature_detected!("avx512dq"),
+            ];
+            if has.iter().all(|&it| it) {
+                paths.push(Self::Avx2);
+                if has_512.iter().all(|&it| it) {
+                    paths.push(Self::Avx512);
+                }
+            }
+        }
+        paths
+    }
+}
+
+/// Defines a method of [`Accel`] that goes the way of its path to a generic one. All that the generic one
+/// calls has to be inlined into a function that is compiled for the instructions of the path.
+macro_rules! dispatch {
+    ($name:ident($accel:ident, $stack:ident, $($argument:ident: $type:ty),*) -> $result:ty, <$lanes:ident> $body:expr) => {
+        #[inline]
+        pub(super) fn $name(&self, stack: &mut Stack, $($argument: $type),*) -> $result {
+            #[inline(always)]
+            fn generic<$lanes: super::lanes::Lanes>($accel: &Accel, $stack: &mut Stack, $($argument: $type),*) -> $result {
+                $body
+            }
+            #[cfg(target_arch = "x86_64")]
+            #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+            fn avx2(accel: &Accel, stack: &mut Stack, $($argument: $type),*) -> $result {
+                generic::<Portable>(accel, stack, $($argument),*)
+            }
+            #[cfg(target_arch = "x86_64")]
+            #[target_feature(enable = "avx512f,avx512vl,avx512bw,avx512dq,avx2,bmi1,bmi2,lzcnt,popcnt")]
+            fn avx512(accel: &Accel, stack: &mut Stack, $($argument: $type),*) -> $result {
+                generic::<Avx512>(accel, stack, $($argument),*)
+            }
+            match self.path {
+                #[cfg(target_arch = "x86_64")]
+                // SAFETY: the path is one of those that are available.
+                Path::Avx512 => unsafe { avx512(self, stack, $($argument),*) },
+                #[cfg(target_arch = "x86_64")]
+                // SAFETY: likewise.
+                Path::Avx2 => unsafe { avx2(self, stack, $($argument),*) },
+                _ => generic::<Portable>(self, stack, $($argument),*),
+            }
+        }
+    };
+}
+
+impl Accel {
+    dispatch!(closest_of_each(accel, stack, rays: &[Ray], hits: &mut [Hit]) -> (), <L> {
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = accel.closest::<L>(stack, ray);
+        }
+    });
+    dispatch!(any_of_each(accel, stack, rays: &[Ray], occluded: &mut [bool]) -> (), <L> {
+        for (ray, occluded) in rays.iter().zip(occluded) {
+            *occluded = accel.any::<L>(stack, ray);
+        }
+    });
+    dispatch!(closest_of_one(accel, stack, ray: &Ray) -> Hit, <L> accel.closest::<L>(stack, ray));
+    // Apart from the rest, since it hardly ever runs.
+    dispatch!(surely_closest_of_one(accel, stack, ray: &Ray) -> Hit, <L> {
+        accel.find::<L, true>(stack, ray).unwrap_or(Hit::MISS)
+    });
+    dispatch!(any_of_one(accel, stack, ray: &Ray) -> bool, <L> accel.any::<L>(stack, ray));
+}

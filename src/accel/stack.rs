@@ -1,0 +1,46 @@
+//! [`Stack`]: the children that a ray has still to see.
+
+use std::cell::RefCell;
+
+use super::lanes::LANES;
+
+/// No tree is deeper than this, in nodes; see [`super::part`].
+pub const MOST_DEEP: usize = 16;
+
+/// How many children can wait: of each node on the way down all but the one that is entered. And a whole
+/// vector is written at a time.
+const CAPACITY: usize = (LANES - 1) * MOST_DEEP + LANES;
+
+/// Children that wait, and where the ray enters them. How many there are the walk itself remembers.
+pub struct Stack {
+    children: [u32; CAPACITY],
+    enters: [f32; CAPACITY],
+}
+
+thread_local! {
+    /// Each walk writes what it reads, so that it need not be cleared.
+    static OF_THREAD: RefCell<Stack> =
+        const { RefCell::new(Stack { children: [0; CAPACITY], enters: [0.0; CAPACITY] }) };
+}
+
+impl Stack {
+    /// Calls `act` with the stack of this thread.
+    #[inline]
+    pub fn with<R>(act: impl FnOnce(&mut Self) -> R) -> R {
+        OF_THREAD.with_borrow_mut(act)
+    }
+
+    /// The child at a place, and where the ray enters it.
+    #[inline(always)]
+    pub fn get(&self, place: usize) -> (u32, f32) {
+        (self.children[place], self.enters[place])
+    }
+
+    /// Where the next children go, all lanes of them.
+    #[inline(always)]
+    pub fn room(&mut self, place: usize) -> (&mut [u32; LANES], &mut [f32; LANES]) {
+        let all = place..place + LANES;
+        let children = (&mut self.children[all.clone()]).try_into().expect("all lanes");
+        (children, (&mut self.enters[all]).try_into().expect("all lanes"))
+    }
+}
