@@ -84,19 +84,20 @@ fn ray(bytes: &[u8; 32]) -> Ray {
 }
 
 /// Hits and the sum of their t.
+fn count(hits: impl Iterator<Item = Hit>) -> (usize, f64) {
+    hits.filter(Hit::is_hit).fold((0, 0.0), |(n, sum), hit| (n + 1, sum + f64::from(hit.t)))
+}
+
 fn trace(accel: &Accel, rays: &[Ray], mode: Mode) -> (usize, f64) {
-    let count = |hits: &mut dyn Iterator<Item = Hit>| {
-        hits.filter(Hit::is_hit).fold((0, 0.0), |(n, sum), hit| (n + 1, sum + f64::from(hit.t)))
-    };
     match mode {
-        Mode::Closest => count(&mut rays.iter().map(|ray| accel.intersect1(ray))),
+        Mode::Closest => count(rays.iter().map(|ray| accel.intersect1(ray))),
         Mode::Any => (rays.iter().filter(|ray| accel.occluded1(ray)).count(), 0.0),
         Mode::Batch => {
             let mut hits = [Hit::MISS; BATCH];
             rays.chunks(BATCH).fold((0, 0.0), |(n, sum), rays| {
                 let hits = &mut hits[..rays.len()];
                 accel.intersect(rays, hits);
-                let (more, t) = count(&mut hits.iter().copied());
+                let (more, t) = count(hits.iter().copied());
                 (n + more, sum + t)
             })
         }

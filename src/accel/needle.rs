@@ -48,9 +48,7 @@ impl<L: Lanes> Needle<L> {
         let zero = L::splat(0.0);
         let unsure = e0.eq(zero) | e1.eq(zero) | e2.eq(zero);
         let inside = zero.le(e0.min(e1.min(e2))) | e0.max(e1.max(e2)).le(zero);
-        // The lanes that are the leaf's own.
-        let own = u16::MAX >> (16 - leaf.count as u32 & 15);
-        let lanes = (inside | unsure) & own;
+        let lanes = (inside | unsure) & leaf.lanes();
         if lanes == 0 {
             return None;
         }

@@ -2,7 +2,7 @@
 
 #[cfg(target_arch = "x86_64")]
 use super::lanes::Avx512;
-use super::lanes::Portable;
+use super::lanes::{LANES, Portable};
 use super::stack::Stack;
 use super::{Accel, Hit};
 use crate::geometry::Ray;
@@ -84,9 +84,14 @@ macro_rules! dispatch {
 
 impl Accel {
     dispatch!(closest_of_each(accel, stack, rays: &[Ray], hits: &mut [Hit]) -> (), <L> {
-        for (ray, hit) in rays.iter().zip(hits) {
-            *hit = accel.closest::<L>(stack, ray);
+        let (packets, rest) = rays.as_chunks::<LANES>();
+        let (hits_of_packets, hits_of_rest) = hits.as_chunks_mut::<LANES>();
+        for (rays, hits) in packets.iter().zip(hits_of_packets) {
+            if !accel.closest_of_packet::<L>(stack, rays, hits) {
+                accel.closest_singly::<L>(stack, rays, hits);
+            }
         }
+        accel.closest_singly::<L>(stack, rest, hits_of_rest);
     });
     dispatch!(any_of_each(accel, stack, rays: &[Ray], occluded: &mut [bool]) -> (), <L> {
         for (ray, occluded) in rays.iter().zip(occluded) {

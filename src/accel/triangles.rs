@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::lanes::{LANES, Lanes};
+use super::lanes::{LANES, Lanes, Mask};
 use super::node::Child;
 
 /// A triangle, with its number among all triangles of all meshes.
@@ -103,6 +103,12 @@ impl<'a> Leaf<'a> {
                 L::load_from(column.add(2 * corner)),
             ]
         }
+    }
+
+    /// The lanes of vectors that are the leaf's own.
+    #[inline(always)]
+    pub fn lanes(self) -> Mask {
+        Mask::MAX >> ((LANES - self.count) % LANES)
     }
 
     /// One coordinate of one corner of one triangle.

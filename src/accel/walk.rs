@@ -1,8 +1,10 @@
 //! How one ray walks the tree.
 
+use super::frustum::Frustum;
 use super::lanes::{LANES, Lanes, Mask};
 use super::needle::{Needle, hit};
 use super::node::Child;
+use super::packet::Packet;
 use super::slabs::Slabs;
 use super::stack::Stack;
 use super::triangles::Leaf;
@@ -20,6 +22,19 @@ struct Place {
 }
 
 impl Accel {
+    /// The closest hit of each ray.
+    #[inline(always)]
+    pub(super) fn closest_singly<L: Lanes>(
+        &self,
+        stack: &mut Stack,
+        rays: &[Ray],
+        hits: &mut [Hit],
+    ) {
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = self.closest::<L>(stack, ray);
+        }
+    }
+
     /// The closest hit of one ray.
     #[inline(always)]
     pub(super) fn closest<L: Lanes>(&self, stack: &mut Stack, ray: &Ray) -> Hit {
@@ -107,6 +122,51 @@ impl Accel {
         let hit = hit(&sheared, leaf, place.lane, ray.t_min, ray.t_max).ok_or(Unsure)?;
         let (shape, triangle) = self.outside(place.number);
         Ok(Hit { t: hit.t, b: hit.b, shape, triangle })
+    }
+
+    /// The closest hits of sixteen rays; false if they have too little in common to be traced together.
+    #[inline(always)]
+    pub(super) fn closest_of_packet<L: Lanes>(
+        &self,
+        stack: &mut Stack,
+        rays: &[Ray; LANES],
+        hits: &mut [Hit; LANES],
+    ) -> bool {
+        if self.nodes.is_empty() {
+            return false;
+        }
+        let Some(mut packet) = Packet::<L>::new(rays) else { return false };
+        let frustum = Frustum::new(&packet, &self.bounds, self.largest_coordinate);
+        let Some(mut frustum) = frustum else { return false };
+        let mut waiting = 0;
+        let mut node = &self.nodes[0];
+        'nodes: loop {
+            let (met, near) = frustum.enters(node);
+            waiting = near.push(stack, waiting, met, &node.children, frustum.flip);
+            while let Some(child) = pop(stack, &mut waiting, frustum.end()) {
+                let (first, count) = match Child::new(child) {
+                    Child::Node(number) => {
+                        node = &self.nodes[number as usize];
+                        continue 'nodes;
+                    }
+                    Child::Leaf { first, count } => (first, count),
+                };
+                let leaf = self.triangles.leaf(first, count);
+                let mut lanes = frustum.meets(leaf);
+                let mut any = false;
+                while lanes != 0 {
+                    let lane = lanes.trailing_zeros();
+                    lanes &= lanes - 1;
+                    any |= packet.meet(leaf, lane, self.triangles.number(first + lane));
+                }
+                if any {
+                    frustum.shorten(&packet);
+                }
+            }
+            break;
+        }
+        packet.finish(self, hits);
+        true
     }
 
     /// Whether one ray hits anything.

@@ -51,19 +51,24 @@ impl ShearedRay {
     /// Prepares a ray.
     #[inline]
     pub fn new(ray: &Ray) -> Self {
-        let size = ray.d.abs();
-        let z = if size.x > size.y && size.x > size.z {
-            0
-        } else if size.y > size.z {
-            1
-        } else {
-            2
-        };
-        let axes = [(z + 1) % 3, (z + 2) % 3, z];
+        let axes = Self::axes_of(ray);
         let (d, o) = (ray.d.to_array(), ray.o.to_array());
         let [x, y, z] = axes;
         let shear = Vec3A::new(-d[x], -d[y], 1.0) / d[z];
         Self { o: [o[x], o[y], o[z]], axes, shear: shear.to_array() }
+    }
+
+    /// The axes that become x, y and z.
+    #[inline]
+    pub(crate) fn axes_of(ray: &Ray) -> [usize; 3] {
+        let size = ray.d.abs();
+        if size.x > size.y && size.x > size.z {
+            [1, 2, 0]
+        } else if size.y > size.z {
+            [2, 0, 1]
+        } else {
+            [0, 1, 2]
+        }
     }
 
     /// The hit with t in `[t_min, t_max]`, if there is one that rounding cannot have made up.

@@ -4,6 +4,7 @@ use std::arch::x86_64::*;
 
 use super::{LANES, Lanes, Mask};
 use crate::accel::stack::Stack;
+use crate::geometry::Ray;
 
 /// Sixteen f32 in a register. Only code that [`super::super::path::Path::Avx512`] leads to may touch
 /// one: each `unsafe` below is the use of an instruction that such a processor has.
@@ -57,6 +58,30 @@ impl Lanes for Avx512 {
         Self(unsafe { _mm512_loadu_ps(x) })
     }
     #[inline(always)]
+    fn transposed(rays: &[Ray; LANES]) -> [Self; 8] {
+        const { assert!(size_of::<Ray>() == 8 * size_of::<f32>()) };
+        // SAFETY: as above; a ray is eight f32 in order (`repr(C)`), and there are sixteen.
+        unsafe {
+            // Rays 0 to 3 beside 4 to 7, and 8 to 11 beside 12 to 15.
+            let (a, b) = (rays.as_ptr(), rays.as_ptr().add(8));
+            let a = columns(beside(a), beside(a.add(1)), beside(a.add(2)), beside(a.add(3)));
+            let b = columns(beside(b), beside(b.add(1)), beside(b.add(2)), beside(b.add(3)));
+            let ([ox, dx], [oy, dy]) = (halves(a[0], b[0]), halves(a[1], b[1]));
+            let ([oz, dz], [t_min, t_max]) = (halves(a[2], b[2]), halves(a[3], b[3]));
+            [ox, oy, oz, t_min, dx, dy, dz, t_max]
+        }
+    }
+    #[inline(always)]
+    fn least(self) -> f32 {
+        // SAFETY: as above.
+        unsafe { _mm512_reduce_min_ps(self.0) }
+    }
+    #[inline(always)]
+    fn greatest(self) -> f32 {
+        // SAFETY: as above.
+        unsafe { _mm512_reduce_max_ps(self.0) }
+    }
+    #[inline(always)]
     fn to_array(self) -> [f32; LANES] {
         let mut x = [0.0; LANES];
         // SAFETY: as above; the array has room for all lanes.
@@ -108,5 +133,43 @@ fn flips(flip: u32) -> __m512i {
     unsafe {
         let lanes = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
         _mm512_xor_si512(lanes, _mm512_set1_epi32(flip as i32))
+    }
+}
+
+/// The columns of the four-by-four matrices in each quarter of four rows.
+#[inline(always)]
+fn columns(a: __m512, b: __m512, c: __m512, d: __m512) -> [__m512; 4] {
+    // SAFETY: called from above.
+    unsafe {
+        let (ab, cd) = (_mm512_unpacklo_ps(a, b), _mm512_unpacklo_ps(c, d));
+        let (ab2, cd2) = (_mm512_unpackhi_ps(a, b), _mm512_unpackhi_ps(c, d));
+        [
+            _mm512_shuffle_ps::<0x44>(ab, cd),
+            _mm512_shuffle_ps::<0xee>(ab, cd),
+            _mm512_shuffle_ps::<0x44>(ab2, cd2),
+            _mm512_shuffle_ps::<0xee>(ab2, cd2),
+        ]
+    }
+}
+
+/// A ray beside the fourth after it.
+///
+/// # Safety
+/// They have to be there.
+#[inline(always)]
+unsafe fn beside(ray: *const Ray) -> __m512 {
+    // SAFETY: called from above.
+    unsafe {
+        let other = _mm256_loadu_ps(ray.add(4).cast());
+        _mm512_insertf32x8::<1>(_mm512_castps256_ps512(_mm256_loadu_ps(ray.cast())), other)
+    }
+}
+
+/// The even quarters of both, and the odd ones.
+#[inline(always)]
+fn halves(a: __m512, b: __m512) -> [Avx512; 2] {
+    // SAFETY: called from above.
+    unsafe {
+        [Avx512(_mm512_shuffle_f32x4::<0x88>(a, b)), Avx512(_mm512_shuffle_f32x4::<0xdd>(a, b))]
     }
 }

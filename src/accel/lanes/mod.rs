@@ -12,6 +12,7 @@ pub use avx512::Avx512;
 pub use portable::Portable;
 
 use super::stack::Stack;
+use crate::geometry::Ray;
 
 /// How many lanes there are: children of a node, triangles of a leaf, rays of a packet.
 pub const LANES: usize = 16;
@@ -28,6 +29,8 @@ pub trait Lanes: Copy {
     /// # Safety
     /// They have to be there.
     unsafe fn load_from(x: *const f32) -> Self;
+    /// Origin, t_min, direction and t_max of each ray.
+    fn transposed(rays: &[Ray; LANES]) -> [Self; 8];
     fn to_array(self) -> [f32; LANES];
     fn add(self, other: Self) -> Self;
     fn sub(self, other: Self) -> Self;
@@ -46,6 +49,10 @@ pub trait Lanes: Copy {
     fn eq(self, other: Self) -> Mask;
     /// `other` in the lanes of `mask`.
     fn or(self, mask: Mask, other: Self) -> Self;
+    /// The least of all; NaN may be left out.
+    fn least(self) -> f32;
+    /// The largest of all; NaN may be left out.
+    fn greatest(self) -> f32;
     /// The number in a lane.
     fn lane(self, lane: u32) -> f32;
     /// Lane `i` becomes lane `i ^ flip`.

@@ -4,6 +4,7 @@ use std::array::from_fn;
 
 use super::{LANES, Lanes, Mask};
 use crate::accel::stack::Stack;
+use crate::geometry::Ray;
 
 #[derive(Clone, Copy)]
 pub struct Portable([f32; LANES]);
@@ -33,6 +34,28 @@ impl Lanes for Portable {
     unsafe fn load_from(x: *const f32) -> Self {
         // SAFETY: the caller promises the numbers.
         Self(unsafe { x.cast::<[f32; LANES]>().read_unaligned() })
+    }
+    #[inline(always)]
+    fn transposed(rays: &[Ray; LANES]) -> [Self; 8] {
+        let of = |f: fn(&Ray) -> f32| Self(from_fn(|i| f(&rays[i])));
+        [
+            of(|r| r.o.x),
+            of(|r| r.o.y),
+            of(|r| r.o.z),
+            of(|r| r.t_min),
+            of(|r| r.d.x),
+            of(|r| r.d.y),
+            of(|r| r.d.z),
+            of(|r| r.t_max),
+        ]
+    }
+    #[inline(always)]
+    fn least(self) -> f32 {
+        self.0.into_iter().fold(f32::INFINITY, f32::min)
+    }
+    #[inline(always)]
+    fn greatest(self) -> f32 {
+        self.0.into_iter().fold(f32::NEG_INFINITY, f32::max)
     }
     #[inline(always)]
     fn to_array(self) -> [f32; LANES] {

@@ -1,0 +1,225 @@
+//! [`Packet`]: sixteen rays that go much the same way, against triangles one by one.
+
+use super::lanes::{LANES, Lanes, Mask, splat3};
+use super::triangles::Leaf;
+use super::{Accel, Hit};
+use crate::geometry::Ray;
+use crate::geometry::float::gamma;
+use crate::shape::ShearedRay;
+
+/// Sixteen rays that are longest in the same axis and run along it in the same sense, with the nearest hit
+/// of each so far. Each lane computes what [`ShearedRay`] computes, to the bit.
+pub struct Packet<'a, L> {
+    rays: &'a [Ray; LANES],
+    /// The axes that become x, y and z, as of each ray.
+    pub axes: [usize; 3],
+    /// Whether the rays run along z backwards.
+    pub backwards: bool,
+    pub o: [L; 3],
+    pub d: [L; 3],
+    pub shear: [L; 3],
+    t_min: L,
+    /// Where the ray ends, or meets the nearest triangle so far.
+    pub t_max: L,
+    /// The edge functions of that triangle, and their sum.
+    edges: [L; 3],
+    determinant: L,
+    /// Its number, as the bits of an f32.
+    number: L,
+}
+
+/// The number of no triangle.
+const NONE: u32 = u32::MAX;
+
+impl<'a, L: Lanes> Packet<'a, L> {
+    /// The packet, if the rays make one.
+    #[inline(always)]
+    pub fn new(rays: &'a [Ray; LANES]) -> Option<Self> {
+        let [ox, oy, oz, t_min, dx, dy, dz, t_max] = L::transposed(rays);
+        let axes = ShearedRay::axes_of(&rays[0]);
+        let (o, d) = ([ox, oy, oz], [dx, dy, dz]);
+        // The rule of `ShearedRay::axes_of` for all rays at once.
+        let size = [dx.abs(), dy.abs(), dz.abs()];
+        let longest = match axes[2] {
+            0 => size[1].lt(size[0]) & size[2].lt(size[0]),
+            1 => !(size[1].lt(size[0]) & size[2].lt(size[0])) & size[2].lt(size[1]),
+            _ => !(size[1].lt(size[0]) & size[2].lt(size[0])) & !size[2].lt(size[1]),
+        };
+        let [x, y, z] = axes;
+        let (o, d) = ([o[x], o[y], o[z]], [d[x], d[y], d[z]]);
+        let zero = L::splat(0.0);
+        let forwards = zero.lt(d[2]);
+        let finite = d[2].abs().lt(L::splat(f32::INFINITY))
+            & (o[0].add(o[1]).add(o[2])).abs().lt(L::splat(f32::INFINITY));
+        if longest & finite != Mask::MAX || forwards != 0 && forwards != Mask::MAX {
+            return None;
+        }
+        let shear = [
+            L::splat(-0.0).sub(d[0]).div(d[2]),
+            L::splat(-0.0).sub(d[1]).div(d[2]),
+            L::splat(1.0).div(d[2]),
+        ];
+        let number = L::splat(f32::from_bits(NONE));
+        let backwards = forwards == 0;
+        Some(Self {
+            rays,
+            axes,
+            backwards,
+            o,
+            d,
+            shear,
+            t_min,
+            t_max,
+            edges: [zero; 3],
+            determinant: L::splat(1.0),
+            number,
+        })
+    }
+
+    /// Tests one triangle of a leaf; whether a ray meets it before what it met so far.
+    #[inline(always)]
+    pub fn meet(&mut self, leaf: Leaf, lane: u32, number: u32) -> bool {
+        let (a, b, c) =
+            (self.corner(leaf, lane, 0), self.corner(leaf, lane, 1), self.corner(leaf, lane, 2));
+        let (e0, e1, e2) = (edge(b, c), edge(c, a), edge(a, b));
+        let zero = L::splat(0.0);
+        let unsure = e0.eq(zero) | e1.eq(zero) | e2.eq(zero);
+        let inside = (zero.le(e0.min(e1.min(e2))) | e0.max(e1.max(e2)).le(zero)) & !unsure;
+        let mut any = false;
+        if inside != 0 {
+            let determinant = e0.add(e1).add(e2);
+            let z = [a[2].mul(self.shear[2]), b[2].mul(self.shear[2]), c[2].mul(self.shear[2])];
+            let t = e0.mul(z[0]).add(e1.mul(z[1])).add(e2.mul(z[2])).div(determinant);
+            let mut met = inside & self.t_min.le(t) & t.le(self.t_max);
+            if met != 0 {
+                met &= least_t([a, b, c], z, [e0, e1, e2], determinant).lt(t);
+                // Of two at the same distance the first triangle counts.
+                met &= t.lt(self.t_max) | self.numbered_above(number, met & t.eq(self.t_max));
+                self.keep(met, t, [e0, e1, e2], determinant, number);
+                any = met != 0;
+            }
+        }
+        if unsure != 0 {
+            any |= self.meet_singly(leaf, lane, number, unsure);
+        }
+        any
+    }
+
+    /// A corner in the space of each ray, where it starts at the origin and runs along +z; z is not scaled.
+    #[inline(always)]
+    fn corner(&self, leaf: Leaf, lane: u32, corner: usize) -> [L; 3] {
+        let [x, y, z] = self.axes;
+        let z = L::splat(leaf.coordinate(lane, corner, z)).sub(self.o[2]);
+        let x = L::splat(leaf.coordinate(lane, corner, x)).sub(self.o[0]);
+        let y = L::splat(leaf.coordinate(lane, corner, y)).sub(self.o[1]);
+        [x.add(self.shear[0].mul(z)), y.add(self.shear[1].mul(z)), z]
+    }
+
+    #[inline(always)]
+    fn keep(&mut self, met: Mask, t: L, e: [L; 3], determinant: L, number: u32) {
+        self.t_max = self.t_max.or(met, t);
+        self.edges =
+            [self.edges[0].or(met, e[0]), self.edges[1].or(met, e[1]), self.edges[2].or(met, e[2])];
+        self.determinant = self.determinant.or(met, determinant);
+        self.number = self.number.or(met, L::splat(f32::from_bits(number)));
+    }
+
+    /// The lanes of `of` that have met nothing, or a triangle with a larger number.
+    #[inline(always)]
+    fn numbered_above(&self, number: u32, of: Mask) -> Mask {
+        if of == 0 {
+            return 0;
+        }
+        let numbers = self.number.to_array();
+        let is_above = |i: usize| Mask::from(number < numbers[i].to_bits()) << i;
+        of & (0..LANES).fold(0, |mask, i| mask | is_above(i))
+    }
+
+    /// Tests rays for which an edge function is zero, which takes f64.
+    #[cold]
+    #[inline(never)]
+    fn meet_singly(&mut self, leaf: Leaf, lane: u32, number: u32, rays: Mask) -> bool {
+        let mut any = false;
+        for i in (0..LANES).filter(|i| rays >> i & 1 == 1) {
+            let (ray, t_max) = (&self.rays[i], self.t_max.to_array()[i]);
+            let hit = ShearedRay::new(ray).intersect_at(
+                |corner, axis| leaf.coordinate(lane, corner, axis),
+                ray.t_min,
+                t_max,
+            );
+            let Some(hit) = hit else { continue };
+            let met = 1 << i;
+            if hit.t < t_max || self.numbered_above(number, met) != 0 {
+                // The weights are edge functions divided already.
+                self.keep(met, L::splat(hit.t), splat3(hit.b), L::splat(1.0), number);
+                any = true;
+            }
+        }
+        any
+    }
+
+    /// Which axes the first ray runs along backwards, x lowest.
+    #[inline(always)]
+    pub fn octant(&self) -> u32 {
+        glam::Vec3A::from(self.rays[0].d).is_negative_bitmask()
+    }
+
+    /// Where z ends for all rays, seen from `base`: the largest, or the least if they run backwards.
+    #[inline(always)]
+    pub fn end(&self, base: L) -> f32 {
+        let z = self.o[2].sub(base).add(self.t_max.mul(self.d[2]));
+        if self.backwards { z.least() } else { z.greatest() }
+    }
+
+    /// What the rays hit.
+    #[inline(always)]
+    pub fn finish(&self, accel: &Accel, hits: &mut [Hit; LANES]) {
+        let [e0, e1, e2] = self.edges;
+        let (e0, e1) = (e0.div(self.determinant), e1.div(self.determinant));
+        let b = [e0.to_array(), e1.to_array(), e2.div(self.determinant).to_array()];
+        let (t, numbers) = (self.t_max.to_array(), self.number.to_array());
+        let one_shape = accel.shapes.len() == 1;
+        for i in 0..LANES {
+            let number = numbers[i].to_bits();
+            let is_hit = number != NONE;
+            let (shape, triangle) = if one_shape || !is_hit {
+                (if is_hit { 0 } else { u32::MAX }, number)
+            } else {
+                accel.outside(number)
+            };
+            let t = if is_hit { t[i] } else { f32::INFINITY };
+            hits[i] = Hit { t, b: [b[0][i], b[1][i], b[2][i]], shape, triangle };
+        }
+    }
+}
+
+/// Twice the signed area of the triangle (origin, p, q) seen along z.
+#[inline(always)]
+fn edge<L: Lanes>(p: [L; 3], q: [L; 3]) -> L {
+    p[0].mul(q[1]).sub(p[1].mul(q[0]))
+}
+
+/// The bound on the error of t, as for one triangle.
+#[inline(always)]
+fn least_t<L: Lanes>(corners: [[L; 3]; 3], z_scaled: [L; 3], e: [L; 3], determinant: L) -> L {
+    let [a, b, c] = corners;
+    let max_x = largest(a[0], b[0], c[0]);
+    let max_y = largest(a[1], b[1], c[1]);
+    let max_unscaled_z = largest(a[2], b[2], c[2]);
+    let max_z = largest(z_scaled[0], z_scaled[1], z_scaled[2]);
+    let (gamma2, gamma3, gamma5) = (L::splat(gamma(2)), L::splat(gamma(3)), L::splat(gamma(5)));
+    let delta_z = gamma3.mul(max_z);
+    let delta_x = gamma5.mul(max_x.add(max_unscaled_z));
+    let delta_y = gamma5.mul(max_y.add(max_unscaled_z));
+    let products = gamma2.mul(max_x).mul(max_y).add(delta_y.mul(max_x)).add(delta_x.mul(max_y));
+    let delta_e = L::splat(2.0).mul(products);
+    let max_e = largest(e[0], e[1], e[2]);
+    let sum = gamma3.mul(max_e).mul(max_z).add(delta_e.mul(max_z)).add(delta_z.mul(max_e));
+    L::splat(3.0).mul(sum).div(determinant.abs())
+}
+
+/// The largest absolute value of three.
+#[inline(always)]
+fn largest<L: Lanes>(a: L, b: L, c: L) -> L {
+    a.abs().max(b.abs()).max(c.abs())
+}
