@@ -16,7 +16,7 @@ pub struct Frustum<L> {
     /// Where the first ray begins.
     base: [L; 3],
     /// By how much all is taken to be larger.
-    padding: L,
+    pub padding: L,
     /// The bounds of x, and of y.
     low: [Line<L>; 2],
     high: [Line<L>; 2],

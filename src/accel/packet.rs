@@ -1,6 +1,8 @@
 //! [`Packet`]: sixteen rays that go much the same way, against triangles one by one.
 
 use super::lanes::{LANES, Lanes, Mask, splat3};
+use super::needle::{Needle, hit};
+use super::node::Node;
 use super::triangles::Leaf;
 use super::{Accel, Hit};
 use crate::geometry::Ray;
@@ -74,6 +76,54 @@ impl<'a, L: Lanes> Packet<'a, L> {
             determinant: L::splat(1.0),
             number,
         })
+    }
+
+    /// Which rays may meet the box of a slot, before the nearest hit of each.
+    #[inline(always)]
+    pub fn enters(&self, node: &Node, slot: usize, padding: L) -> Mask {
+        let [x, y, z] = self.axes;
+        let low = |axis: usize| L::splat(node.planes[axis % 3][slot % LANES]);
+        let high = |axis: usize| L::splat(node.planes[axis % 3 + 3][slot % LANES]);
+        let (low_z, high_z) = (low(z).sub(self.o[2]).sub(padding), high(z).sub(self.o[2]).add(padding));
+        // Where each ray is when it passes both ends of the box in z.
+        let (low_x, high_x) = (self.shear[0].mul(low_z), self.shear[0].mul(high_z));
+        let (low_y, high_y) = (self.shear[1].mul(low_z), self.shear[1].mul(high_z));
+        let (from_x, to_x) = (low(x).sub(self.o[0]).sub(padding), high(x).sub(self.o[0]).add(padding));
+        let (from_y, to_y) = (low(y).sub(self.o[1]).sub(padding), high(y).sub(self.o[1]).add(padding));
+        let zero = L::splat(0.0);
+        zero.le(to_x.add(low_x.max(high_x)))
+            & from_x.add(low_x.min(high_x)).le(zero)
+            & zero.le(to_y.add(low_y.max(high_y)))
+            & from_y.add(low_y.min(high_y)).le(zero)
+    }
+
+    /// Tests all triangles of a leaf for one ray; whether it meets one before what it met so far.
+    #[inline(always)]
+    pub fn meet_all(&mut self, accel: &Accel, leaf: Leaf, first: u32, i: u32) -> bool {
+        let lane = |x: L| x.lane(i);
+        let [ox, oy, oz] = self.o;
+        let [sx, sy, sz] = self.shear;
+        let sheared = ShearedRay {
+            o: [lane(ox), lane(oy), lane(oz)],
+            axes: self.axes,
+            shear: [lane(sx), lane(sy), lane(sz)],
+        };
+        let t_min = lane(self.t_min);
+        let needle = Needle::<L>::new(&sheared, t_min);
+        let Some(met) = needle.meets(leaf, lane(self.t_max)) else { return false };
+        let (mut lanes, mut any) = (met.lanes, false);
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros();
+            lanes &= lanes - 1;
+            let t_max = self.t_max.lane(i);
+            let Some(hit) = hit(&sheared, leaf, lane, t_min, t_max) else { continue };
+            let number = accel.triangles.number(first + lane);
+            if hit.t < t_max || self.numbered_above(number, 1 << i) != 0 {
+                self.keep(1 << i, L::splat(hit.t), splat3(hit.b), L::splat(1.0), number);
+                any = true;
+            }
+        }
+        any
     }
 
     /// Tests one triangle of a leaf; whether a ray meets it before what it met so far.

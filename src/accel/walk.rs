@@ -139,25 +139,38 @@ impl Accel {
         let frustum = Frustum::new(&packet, &self.bounds, self.largest_coordinate);
         let Some(mut frustum) = frustum else { return false };
         let mut waiting = 0;
-        let mut node = &self.nodes[0];
+        let mut place = 0;
         'nodes: loop {
-            let (met, near) = frustum.enters(node);
-            waiting = near.push(stack, waiting, met, &node.children, frustum.flip);
-            while let Some(child) = pop(stack, &mut waiting, frustum.end()) {
-                let (first, count) = match Child::new(child) {
+            let (met, near) = frustum.enters(&self.nodes[place as usize]);
+            let slots = place * LANES as u32;
+            waiting = near.push_slots(stack, waiting, met, slots, frustum.flip);
+            while let Some(slot) = pop(stack, &mut waiting, frustum.end()) {
+                let (node, slot) = (&self.nodes[slot as usize / LANES], slot as usize % LANES);
+                let (first, count) = match Child::new(node.children[slot]) {
                     Child::Node(number) => {
-                        node = &self.nodes[number as usize];
+                        place = number;
                         continue 'nodes;
                     }
                     Child::Leaf { first, count } => (first, count),
                 };
                 let leaf = self.triangles.leaf(first, count);
                 let mut lanes = frustum.meets(leaf);
+                if lanes == 0 {
+                    continue;
+                }
                 let mut any = false;
-                while lanes != 0 {
-                    let lane = lanes.trailing_zeros();
-                    lanes &= lanes - 1;
-                    any |= packet.meet(leaf, lane, self.triangles.number(first + lane));
+                let mut rays = packet.enters(node, slot, frustum.padding);
+                if 4 * rays.count_ones() < 3 * lanes.count_ones() {
+                    while rays != 0 {
+                        any |= packet.meet_all(self, leaf, first, rays.trailing_zeros());
+                        rays &= rays - 1;
+                    }
+                } else {
+                    while lanes != 0 {
+                        let lane = lanes.trailing_zeros();
+                        lanes &= lanes - 1;
+                        any |= packet.meet(leaf, lane, self.triangles.number(first + lane));
+                    }
                 }
                 if any {
                     frustum.shorten(&packet);

@@ -124,6 +124,26 @@ impl Lanes for Avx512 {
         }
         len + mask.count_ones() as usize
     }
+
+    #[inline(always)]
+    fn push_slots(
+        self,
+        stack: &mut Stack,
+        len: usize,
+        mask: Mask,
+        first: u32,
+        flip: u32,
+    ) -> usize {
+        let (waiting, enters) = stack.room(len);
+        // SAFETY: as for `push`.
+        unsafe {
+            let slots = _mm512_add_epi32(flips(flip), _mm512_set1_epi32(first as i32));
+            let slots = _mm512_maskz_compress_epi32(mask, slots);
+            _mm512_storeu_si512(waiting.as_mut_ptr().cast(), slots);
+            _mm512_storeu_ps(enters.as_mut_ptr(), _mm512_maskz_compress_ps(mask, self.0));
+        }
+        len + mask.count_ones() as usize
+    }
 }
 
 /// `i ^ flip` for each lane i.

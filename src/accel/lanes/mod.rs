@@ -68,6 +68,9 @@ pub trait Lanes: Copy {
         children: &[u32; LANES],
         flip: u32,
     ) -> usize;
+
+    /// Puts the slots of a node on the stack as [`Lanes::push`] does children: slot i as `first` + i.
+    fn push_slots(self, stack: &mut Stack, len: usize, mask: Mask, first: u32, flip: u32) -> usize;
 }
 
 /// Each of three numbers in all lanes. Written out, because `map` is not always inlined.
