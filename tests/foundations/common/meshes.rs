@@ -70,3 +70,20 @@ pub fn soup(triangles: &[[Vec3; 3]]) -> TriangleMesh {
         ..TriangleMesh::default()
     }
 }
+
+/// A plane at y = 1 of `side` x `side` squares of two triangles, around the y axis; neighbours share
+/// their corners.
+pub fn grid(side: u32) -> TriangleMesh {
+    let half = side as f32 / 2.0;
+    let corner = |i: u32| Vec3::new((i % (side + 1)) as f32, 0.0, (i / (side + 1)) as f32);
+    let positions =
+        (0..(side + 1) * (side + 1)).map(|i| corner(i) + Vec3::new(-half, 1.0, -half)).collect();
+    let indices = (0..side * side)
+        .flat_map(|cell| {
+            let a = cell % side + cell / side * (side + 1);
+            let (b, c, d) = (a + 1, a + side + 1, a + side + 2);
+            [[a, b, d], [a, d, c]]
+        })
+        .collect();
+    TriangleMesh { positions, indices, ..TriangleMesh::default() }
+}

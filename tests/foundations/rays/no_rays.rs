@@ -1,0 +1,62 @@
+//! Rays that are none, and rays of odd lengths.
+
+use lobe::accel::Accel;
+use lobe::geometry::Ray;
+use lobe::glam::Vec3;
+
+use super::answers::{Loop, assert_answers};
+use super::kinds;
+use crate::common::Rng;
+use crate::common::meshes::lumpy;
+
+/// Zeros, infinities and NaN as origin, direction and range: the walk ends, and gives what a loop gives,
+/// which is never a hit at a distance that is none.
+#[test]
+fn rays_that_are_none() {
+    for levels in [0, 1, 3] {
+        let meshes = [lumpy(levels, 4)];
+        let (accel, truth) = (Accel::build(&meshes), Loop::new(&meshes));
+        let rays = kinds::none();
+        assert_answers(&accel, &truth, &rays, &format!("{levels} levels"));
+        for ray in &rays {
+            let hit = accel.intersect1(ray);
+            assert!(!hit.is_hit() || hit.t.is_finite(), "{ray:?}: {hit:?}");
+        }
+    }
+}
+
+/// Directions of any length give the same hits.
+#[test]
+fn directions_of_any_length() {
+    let accel = Accel::build(&[lumpy(3, 4)]);
+    for trial in 0..50_000 {
+        let mut rng = Rng::new(838, trial);
+        let (o, d) = (2.0 * rng.direction(), rng.direction());
+        let reference = accel.intersect1(&Ray::new(o, d));
+        for exponent in [-100, -60, 60, 100] {
+            let scale = (exponent as f32).exp2();
+            let hit = accel.intersect1(&Ray::new(o, d * scale));
+            assert_eq!(hit.triangle, reference.triangle, "trial {trial}, 2^{exponent}");
+            assert!(!hit.is_hit() || hit.t == reference.t / scale, "trial {trial}, 2^{exponent}");
+        }
+    }
+}
+
+/// A direction that is no number hits nothing, next to good rays in a batch too; and the good ones hit.
+#[test]
+fn one_bad_ray_spoils_no_batch() {
+    let accel = Accel::build(&[lumpy(3, 4)]);
+    for place in 0..40 {
+        for bad in [Vec3::ZERO, Vec3::NAN, Vec3::X * f32::NAN, Vec3::INFINITY, -Vec3::ZERO] {
+            let mut rays = vec![Ray::new(Vec3::ZERO, Vec3::new(0.1, 0.2, 1.0)); 40];
+            rays[place].d = bad;
+            let mut hits = vec![lobe::accel::Hit::MISS; 40];
+            let mut occluded = vec![false; 40];
+            accel.intersect(&rays, &mut hits);
+            accel.occluded(&rays, &mut occluded);
+            for i in 0..40 {
+                assert_eq!((hits[i].is_hit(), occluded[i]), (i != place, i != place), "{bad}, {i}");
+            }
+        }
+    }
+}
