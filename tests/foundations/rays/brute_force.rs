@@ -71,11 +71,11 @@ fn trees_of_all_sizes_give_what_a_loop_gives() {
     scenes_of_all_sizes(10_000, 6_000_000, 3000);
 }
 
-/// As above, twenty times as many rays.
+/// As above, ten times as many rays.
 #[test]
 #[ignore = "takes half a minute"]
 fn trees_of_all_sizes_give_what_a_loop_gives_in_full() {
-    scenes_of_all_sizes(20_000, 160_000_000, 80_000);
+    scenes_of_all_sizes(20_000, 60_000_000, 30_000);
 }
 
 /// Surfaces as scenes have them: a closed mesh twice, in the same place; a grid in a plane of the axes beside
@@ -93,11 +93,11 @@ fn surfaces_give_what_a_loop_gives() {
     surfaces(30_000, 4_000_000);
 }
 
-/// As above, twenty times as many rays.
+/// As above, ten times as many rays.
 #[test]
 #[ignore = "takes half a minute"]
 fn surfaces_give_what_a_loop_gives_in_full() {
-    surfaces(30_100, 80_000_000);
+    surfaces(30_100, 40_000_000);
 }
 
 /// Sizes from 1e-8 to 1e8, each alone and all in one scene, some about the origin and some beside it.

@@ -61,7 +61,7 @@ fn no_triangle_hits_itself() {
         for (number, (ray, b)) in hits.into_iter().enumerate() {
             let si = SurfaceInteraction::on_triangle(&mesh, 0, b, -ray.d);
             let mut spawn = |i: usize| {
-                if i % 2 == 0 {
+                if i < RAYS / HITS / 2 {
                     return si.spawn_ray_to(beside(&si, corners, &mut rng));
                 }
                 let mut w = rng.direction();
