@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use lobe::TriangleMesh;
 use lobe::glam::{DVec3, Vec3};
+use lobe::shape::triangle_normal;
 
 use super::Rng;
 
@@ -86,4 +87,35 @@ pub fn grid(side: u32) -> TriangleMesh {
         })
         .collect();
     TriangleMesh { positions, indices, ..TriangleMesh::default() }
+}
+
+/// Triangles of very different sizes, `count` with an area, dealt to several shapes. With `coordinates` of 1 they
+/// are shaped at random; with more, their coordinates are 10^U(-coordinates, coordinates), and most are needles. Every tenth is one
+/// that was there before, with its corners as they were or turned round. Among the shapes is an empty
+/// one, and in each stands a triangle without area.
+pub fn mixture(count: usize, coordinates: f64, rng: &mut Rng) -> Vec<TriangleMesh> {
+    let mut all: Vec<[Vec3; 3]> = Vec::with_capacity(count);
+    while all.len() < count {
+        let triangle = if rng.below(10) == 0 && !all.is_empty() {
+            let mut again = all[rng.below(all.len())];
+            again.rotate_left(rng.below(3));
+            again
+        } else if coordinates > 1.0 {
+            [(); 3].map(|()| rng.point(coordinates))
+        } else {
+            let (at, size) = (rng.point(coordinates), rng.coordinate(coordinates).abs());
+            [(); 3].map(|()| at + size * rng.direction())
+        };
+        if triangle_normal(triangle) != Vec3::ZERO {
+            all.push(triangle);
+        }
+    }
+    let mut shapes = vec![vec![[all[0][0]; 3]]; 1 + rng.below(4)];
+    for triangle in all {
+        let shape = rng.below(shapes.len());
+        shapes[shape].push(triangle);
+    }
+    let mut meshes: Vec<TriangleMesh> = shapes.iter().map(|shape| soup(shape)).collect();
+    meshes.insert(rng.below(meshes.len() + 1), TriangleMesh::default());
+    meshes
 }

@@ -37,6 +37,15 @@ impl Loop {
         }
         closest
     }
+
+    /// What a ray finds on the triangle that was hit, by itself.
+    pub fn again(&self, ray: &Ray, hit: &Hit) -> Hit {
+        let number = (hit.shape, hit.triangle);
+        let found =
+            self.0.binary_search_by_key(&number, |(_, shape, triangle)| (*shape, *triangle));
+        let Ok(place) = found else { return Hit::MISS };
+        Self(vec![self.0[place]]).closest(ray)
+    }
 }
 
 /// A hit as whole numbers, which differ wherever the hits do.
@@ -77,7 +86,7 @@ pub fn assert_batch(accel: &Accel, rays: &[Ray], order: &[usize], truths: &[Hit]
 
 /// Asks for a batch. The answers go into the middle of longer arrays that hold something already: all
 /// of the middle has to be written, and nothing around it.
-fn ask(accel: &Accel, rays: &[Ray]) -> (Vec<Hit>, Vec<bool>) {
+pub fn ask(accel: &Accel, rays: &[Ray]) -> (Vec<Hit>, Vec<bool>) {
     const AROUND: usize = 17;
     let stale = Hit { t: -7.0, b: [f32::NAN; 3], shape: 0, triangle: u32::MAX - 7 };
     let middle = AROUND..AROUND + rays.len();

@@ -11,6 +11,7 @@ mod degenerate;
 mod edges;
 mod kinds;
 mod limits;
+mod needles;
 mod neighbours;
 mod no_rays;
 mod places;
