@@ -153,9 +153,9 @@ fn varied(mut ray: Ray, target: Vec3, new_length: f32, rng: &mut Rng) -> Ray {
     ray
 }
 
-/// Rays that are none: zeros, infinities, NaN, and lengths at the ends of what floats hold.
+/// Rays that are none: zeros of both signs, infinities and NaN in all places, some next to a 1.
 pub fn none() -> Vec<Ray> {
-    let bad = [0.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN_POSITIVE];
+    let bad = [0.0, -0.0, 1.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
     let mut rays = Vec::new();
     for x in bad {
         for y in bad {

@@ -1,6 +1,6 @@
 //! Rays that are none, and rays of odd lengths.
 
-use lobe::accel::Accel;
+use lobe::accel::{Accel, Hit};
 use lobe::geometry::Ray;
 use lobe::glam::Vec3;
 
@@ -21,6 +21,27 @@ fn rays_that_are_none() {
         for ray in &rays {
             let hit = accel.intersect1(ray);
             assert!(!hit.is_hit() || hit.t.is_finite(), "{ray:?}: {hit:?}");
+        }
+    }
+}
+
+/// The longest directions and the shortest, which leave the range in which a t can be told: the walk ends, and
+/// what it finds is a triangle.
+#[test]
+fn directions_at_the_ends_of_floats() {
+    let accel = Accel::build(&[lumpy(3, 4)]);
+    let ends = [0.0, f32::MAX, f32::MIN, f32::MIN_POSITIVE, 1e-45, -1e-45];
+    for d in ends.iter().flat_map(|&x| ends.map(|y| ends.map(|z| Vec3::new(x, y, z)))).flatten() {
+        for o in [Vec3::ZERO, 3.0 * Vec3::X, Vec3::splat(1e12), Vec3::splat(f32::MAX)] {
+            let rays = [Ray::new(o, d); 9];
+            let mut hits = [Hit::MISS; 9];
+            let mut occluded = [false; 9];
+            accel.intersect(&rays, &mut hits);
+            accel.occluded(&rays, &mut occluded);
+            hits[8] = accel.intersect1(&rays[0]);
+            accel.occluded1(&rays[0]);
+            let sound = |hit: &Hit| !hit.is_hit() || hit.t >= 0.0 && hit.triangle < 512;
+            assert!(hits.iter().all(sound), "{o}, {d}: {hits:?}");
         }
     }
 }
@@ -50,7 +71,7 @@ fn one_bad_ray_spoils_no_batch() {
         for bad in [Vec3::ZERO, Vec3::NAN, Vec3::X * f32::NAN, Vec3::INFINITY, -Vec3::ZERO] {
             let mut rays = vec![Ray::new(Vec3::ZERO, Vec3::new(0.1, 0.2, 1.0)); 40];
             rays[place].d = bad;
-            let mut hits = vec![lobe::accel::Hit::MISS; 40];
+            let mut hits = vec![Hit::MISS; 40];
             let mut occluded = vec![false; 40];
             accel.intersect(&rays, &mut hits);
             accel.occluded(&rays, &mut occluded);
