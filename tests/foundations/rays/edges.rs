@@ -8,7 +8,8 @@ use crate::common::Rng;
 
 /// Which side of an edge a ray passes is told exactly, however close: along the z axis, where the shear
 /// rounds nothing, against the sign of the edge function in f64, which holds it. Caught: an edge function of
-/// 0 without its second look in f64, which hits beside the triangle.
+/// 0 without its second look in f64, which hits beside the triangle. Caught as well: a ray along an edge
+/// taken to be outside of the triangle.
 #[test]
 fn edges_are_told_exactly() {
     let ray = ShearedRay::new(&Ray::new(Vec3::ZERO, Vec3::Z));

@@ -26,7 +26,8 @@ fn around(ray: &Ray, hit: &Hit) -> [Ray; 9] {
     ]
 }
 
-/// A hit at t_max counts, and so does one at t_min; one float inside of them there is nothing.
+/// A hit at t_max counts, and so does one at t_min; one float inside of them there is nothing. Caught: t_max
+/// left out of the range, and t_min; a box not entered at the very t_max; either limit ignored.
 #[test]
 fn ranges_end_at_the_very_float() {
     let lump = lumpy(3, 8);
@@ -58,8 +59,8 @@ fn ranges_end_at_the_very_float() {
     }
 }
 
-/// Of equally near triangles the first counts: the lowest shape, and in it the lowest triangle. Wherever
-/// the tree holds them, and whatever lies between.
+/// Of equally near triangles the first counts: the lowest shape, and in it the lowest triangle. Wherever the
+/// tree holds them, and whatever lies between. Caught: of equals the last that the walk meets, and the first.
 #[test]
 fn the_first_of_equals_is_hit() {
     let wall = grid(8);

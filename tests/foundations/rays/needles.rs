@@ -54,6 +54,8 @@ fn needles(test: u64, trials: u64, count: usize) {
     assert!(hits > 1000, "only {hits} rays hit");
 }
 
+/// Caught: boxes neither padded nor their far side moved by the rounding of the slabs; eight rays walked in
+/// the octant of the first; a batch's rest left out.
 #[test]
 fn needles_are_hit_as_a_loop_hits_them() {
     needles(32_000, 20, 50);

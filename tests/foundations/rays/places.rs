@@ -6,7 +6,7 @@ use lobe::accel::Accel;
 use lobe::geometry::Ray;
 use lobe::glam::Vec3;
 
-use super::answers::{Loop, assert_answers, assert_batch, assert_single};
+use super::answers::{Loop, assert_answers, assert_batch};
 use crate::common::Rng;
 use crate::common::meshes::{lumpy, single, soup};
 
@@ -26,7 +26,8 @@ fn rays_at_corners(test: u64, count: u64) -> Vec<Ray> {
 }
 
 /// Many triangles in the very same place: every split is as bad as any other. The first of them is the one
-/// that is hit, with the bits that one triangle gives.
+/// that is hit, with the bits that one triangle gives. Caught: the later of equals taken; a leaf cut to its
+/// last 15; all but the first half of a batch left out.
 #[test]
 fn triangles_in_one_place() {
     let alone = [TriangleMesh::default(), single(CORNERS)];
@@ -40,7 +41,8 @@ fn triangles_in_one_place() {
 }
 
 /// The same heap, with each triangle's corners turned round, and with others of the same box: they differ in
-/// what they hit, not in where they are.
+/// what they hit, not in where they are. Caught: a leaf cut to its last 15 triangles; boxes that are not
+/// padded; ties broken by the order of the tree.
 #[test]
 fn triangles_in_one_box() {
     let [a, b, c] = CORNERS;
@@ -54,7 +56,8 @@ fn triangles_in_one_box() {
     }
 }
 
-/// A million triangles that are one point, and have no area, beside one that has.
+/// A million triangles that are one point, and have no area, beside one that has. Caught: triangles without
+/// area kept.
 #[test]
 fn triangles_in_one_point() {
     let points = soup(&vec![[Vec3::new(0.25, 0.0, 1.0); 3]; 1_000_000]);
@@ -66,25 +69,32 @@ fn triangles_in_one_point() {
     assert_answers(&accel, &truth, &rays, "a million points");
 }
 
-/// Sizes and places in geometric progression make deep trees: each level holds one triangle and all of
-/// the rest. Where all share a corner, every ray at it walks all levels, and has on each something that
-/// waits: thousands of levels of two children, hundreds of sixteen.
+/// Sizes in geometric progression make deep trees: each level holds one triangle and all that are smaller,
+/// thousands of levels of two children, hundreds of sixteen. Where triangles lie above each other, a ray from
+/// below enters the smaller ones first, and on each level something waits that it may yet have to hit.
+/// Caught: what waits beyond 64, and beyond 256, dropped; padding that leaves out where the ray begins.
 #[test]
 fn deep_trees_are_walked() {
     let triangle = |size: f32, place: f32, height: f32| {
         let at = |x: f32, y: f32| Vec3::new(place + size * x, size * y, height - place);
         [at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0)]
     };
+    // Three corners of a square: its box is the same whichever is left out.
+    let layer = |size: f32, left_out: usize| {
+        let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+        let (x, y) = (|i: usize| square[i % 4].0, |i: usize| square[i % 4].1);
+        [1, 2, 3].map(|i| size * Vec3::new(x(left_out + i), y(left_out + i), 0.01))
+    };
     let powers = |end: f64, step: f64| {
         let count = (2.0 * end / step) as i32;
         (0..count).map(move |i| (f64::from(i) * step - end).exp2() as f32)
     };
+    // Of two children each, these are 67, 3592, 708, 292, 45, 42 and 54 levels deep.
     let chains: [Vec<[Vec3; 3]>; 7] = [
         powers(36.0, 1.0).map(|s| triangle(s, 0.0, 0.0)).collect(),
         powers(36.0, 0.02).map(|s| triangle(s, 0.0, 0.0)).collect(),
-        // Leaning, so that no two lie in one plane.
-        powers(36.0, 0.05).map(|s| triangle(s, 0.0, 0.3 * s)).collect(),
-        powers(1.0, 0.001).map(|s| triangle(s, 0.0, 0.3 * s)).collect(),
+        powers(36.0, 0.1).enumerate().map(|(i, s)| layer(s, i * i % 7)).collect(),
+        powers(3.0, 0.02).enumerate().map(|(i, s)| layer(s, i * i % 7)).collect(),
         powers(36.0, 1.0).map(|s| triangle(s, s, 0.0)).collect(),
         powers(20.0, 0.02).map(|s| triangle(s, -2.0 * s, 0.0)).collect(),
         powers(36.0, 0.05).map(|s| triangle(1e-3 * s, s, 0.0)).collect(),
@@ -100,23 +110,26 @@ fn deep_trees_are_walked() {
             let [b0, b1, b2] = rng.barycentric();
             let inside = b0 * corners[0] + b1 * corners[1] + b2 * corners[2];
             let target = [inside, corners[0], corners[1]][rng.below(3)];
-            // Half of them begin within most of the boxes, which is where most wait.
-            if rng.below(2) == 0 {
-                return Ray::new(corners[0] + rng.point(12.0), rng.direction());
-            }
             let length = (corners[1] - corners[0]).length().max(target.length());
-            let o = target + rng.direction() * rng.coordinate(2.0) * length;
-            Ray::new(o, target - o)
+            match rng.below(3) {
+                // From within most of the boxes.
+                0 => Ray::new(corners[0] + rng.point(12.0), rng.direction()),
+                // From below all layers.
+                1 => Ray::new(inside - 2.0 * length * Vec3::Z, Vec3::Z),
+                _ => {
+                    let away = rng.direction() * rng.coordinate(2.0) * length;
+                    Ray::new(target + away, -away)
+                }
+            }
         };
-        let rays: Vec<Ray> = (0..2000).map(ray).collect();
+        let rays: Vec<Ray> = (0..1500).map(ray).collect();
         assert_answers(&accel, &truth, &rays, &format!("chain {number}"));
-        let beside = Ray::new(Vec3::new(-1.0, -1.0, 0.5), Vec3::Z);
-        assert_single(&accel, &beside, &truth.closest(&beside), &format!("chain {number}"));
     }
     assert!(deepest > 200, "the deepest tree has {deepest} levels, too few for this test");
 }
 
 /// A tree that is shallow but for one branch: most rays of a batch need little to remember, some need much.
+/// Caught: what waits beyond 64, and beyond 256, dropped; eight rays walked in the octant of the first.
 #[test]
 fn deep_and_shallow_rays_in_one_batch() {
     let chain: Vec<[Vec3; 3]> = (0..1500)
