@@ -47,7 +47,7 @@ fn trees_of_all_sizes_give_what_a_loop_gives() {
 
 /// As above, ten times as many rays.
 #[test]
-#[ignore = "takes half a minute"]
+#[ignore = "takes a minute"]
 fn trees_of_all_sizes_give_what_a_loop_gives_in_full() {
     scenes_of_all_sizes(20_000, 60_000_000, 30_000);
 }
