@@ -89,10 +89,10 @@ pub fn grid(side: u32) -> TriangleMesh {
     TriangleMesh { positions, indices, ..TriangleMesh::default() }
 }
 
-/// Triangles of very different sizes, `count` with an area, dealt to several shapes. With `coordinates` of 1 they
-/// are shaped at random; with more, their coordinates are 10^U(-coordinates, coordinates), and most are needles. Every tenth is one
-/// that was there before, with its corners as they were or turned round. Among the shapes is an empty
-/// one, and in each stands a triangle without area.
+/// Triangles of very different sizes, `count` with an area, dealt to several shapes. With `coordinates` of 1
+/// they are shaped at random; with more, their coordinates are 10^U(-coordinates, coordinates), and most are
+/// needles. Every tenth is one that was there before, with its corners as they were or turned round. Among
+/// the shapes is an empty one, and in each stands a triangle without area.
 pub fn mixture(count: usize, coordinates: f64, rng: &mut Rng) -> Vec<TriangleMesh> {
     let mut all: Vec<[Vec3; 3]> = Vec::with_capacity(count);
     while all.len() < count {
