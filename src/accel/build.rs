@@ -16,7 +16,7 @@ use crate::shape::TriangleMesh;
 ///
 /// obvhs builds binary trees (PLOC, then reinsertion). They are collapsed to nodes of sixteen children and
 /// leaves of up to sixteen triangles, which rays are tested against sixteen at a time.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Accel {
     pub(super) nodes: Vec<Node>,
     pub(super) triangles: Triangles,

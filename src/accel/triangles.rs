@@ -17,7 +17,7 @@ pub struct Triangle {
 /// Each leaf has nine columns, one for each coordinate of each corner, as long as it has triangles: nothing
 /// is wasted on leaves that are not full. A vector that is loaded from a column holds, above the leaf's own
 /// lanes, what comes next; those lanes are not looked at.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Triangles {
     columns: Vec<f32>,
     numbers: Vec<u32>,

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use lobe::TriangleMesh;
 use lobe::glam::{DVec3, Vec3};
+use lobe::shape::triangle_normal;
 
 use super::Rng;
 
@@ -69,4 +70,52 @@ pub fn soup(triangles: &[[Vec3; 3]]) -> TriangleMesh {
         indices: (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
         ..TriangleMesh::default()
     }
+}
+
+/// A plane at y = 1 of `side` x `side` squares of two triangles, around the y axis; neighbours share
+/// their corners.
+pub fn grid(side: u32) -> TriangleMesh {
+    let half = side as f32 / 2.0;
+    let corner = |i: u32| Vec3::new((i % (side + 1)) as f32, 0.0, (i / (side + 1)) as f32);
+    let positions =
+        (0..(side + 1) * (side + 1)).map(|i| corner(i) + Vec3::new(-half, 1.0, -half)).collect();
+    let indices = (0..side * side)
+        .flat_map(|cell| {
+            let a = cell % side + cell / side * (side + 1);
+            let (b, c, d) = (a + 1, a + side + 1, a + side + 2);
+            [[a, b, d], [a, d, c]]
+        })
+        .collect();
+    TriangleMesh { positions, indices, ..TriangleMesh::default() }
+}
+
+/// Triangles of very different sizes, `count` with an area, dealt to several shapes. With `coordinates` of 1
+/// they are shaped at random; with more, their coordinates are 10^U(-coordinates, coordinates), and most are
+/// needles. Every tenth is one that was there before, with its corners as they were or turned round. Among
+/// the shapes is an empty one, and in each stands a triangle without area.
+pub fn mixture(count: usize, coordinates: f64, rng: &mut Rng) -> Vec<TriangleMesh> {
+    let mut all: Vec<[Vec3; 3]> = Vec::with_capacity(count);
+    while all.len() < count {
+        let triangle = if rng.below(10) == 0 && !all.is_empty() {
+            let mut again = all[rng.below(all.len())];
+            again.rotate_left(rng.below(3));
+            again
+        } else if coordinates > 1.0 {
+            [(); 3].map(|()| rng.point(coordinates))
+        } else {
+            let (at, size) = (rng.point(coordinates), rng.coordinate(coordinates).abs());
+            [(); 3].map(|()| at + size * rng.direction())
+        };
+        if triangle_normal(triangle) != Vec3::ZERO {
+            all.push(triangle);
+        }
+    }
+    let mut shapes = vec![vec![[all[0][0]; 3]]; 1 + rng.below(4)];
+    for triangle in all {
+        let shape = rng.below(shapes.len());
+        shapes[shape].push(triangle);
+    }
+    let mut meshes: Vec<TriangleMesh> = shapes.iter().map(|shape| soup(shape)).collect();
+    meshes.insert(rng.below(meshes.len() + 1), TriangleMesh::default());
+    meshes
 }

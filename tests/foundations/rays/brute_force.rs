@@ -4,148 +4,116 @@ use lobe::TriangleMesh;
 use lobe::accel::{Accel, Hit};
 use lobe::geometry::Ray;
 use lobe::glam::Vec3;
-use lobe::interaction::SurfaceInteraction;
-use lobe::shape::ShearedRay;
 
+use super::answers::{Loop, assert_answers, bits};
+use super::kinds::{Kind, many};
 use crate::common::Rng;
-use crate::common::meshes::{lumpy, placed, soup};
+use crate::common::meshes::{grid, lumpy, mixture, placed, soup};
 
-/// The closest hit among all triangles; of equally close ones the first.
-fn brute_force(meshes: &[TriangleMesh], ray: &Ray) -> Hit {
-    let sheared = ShearedRay::new(ray);
-    let mut closest = Hit::MISS;
-    for (shape, mesh) in meshes.iter().enumerate() {
-        for triangle in 0..mesh.indices.len() {
-            if mesh.geometric_normal(triangle) == Vec3::ZERO {
-                continue;
-            }
-            let found = sheared.intersect(&mesh.corners(triangle), ray.t_min, ray.t_max);
-            if let Some(found) = found.filter(|found| found.t < closest.t) {
-                closest =
-                    Hit { t: found.t, b: found.b, shape: shape as u32, triangle: triangle as u32 };
-            }
+/// Around the widths that hardware has, where lanes stay empty, and well beyond.
+const SIZES: [usize; 13] = [1, 2, 3, 7, 8, 9, 15, 16, 17, 33, 100, 1000, 20_000];
+
+/// Fails unless tree and loop agree on rays of every kind, about `tests` ray-triangle tests for each.
+fn assert_scene(meshes: &[TriangleMesh], test: u64, tests: usize, most: usize, what: &str) {
+    let (accel, truth) = (Accel::build(meshes), Loop::new(meshes));
+    let count = (tests / accel.triangle_count()).clamp(50, most);
+    for kind in Kind::ALL {
+        let rays = many(kind, meshes, test, count);
+        assert_answers(&accel, &truth, &rays, &format!("{what}, {kind:?}"));
+    }
+}
+
+fn scenes_of_all_sizes(test: u64, tests: usize, most: usize) {
+    for (number, count) in SIZES.into_iter().enumerate() {
+        // Small trees have few shapes: several of each.
+        let trials = if count <= 33 { 8 } else { 1 };
+        for trial in 0..trials {
+            let mut rng = Rng::new(test, 100 * number as u64 + trial);
+            let meshes = mixture(count, 1.0, &mut rng);
+            let what = format!("{count} triangles, scene {trial}");
+            let seed = test + 100 * number as u64 + trial;
+            assert_scene(&meshes, seed, tests / trials as usize, most / trials as usize, &what);
         }
     }
-    closest
 }
 
-pub fn assert_same(accel: &Accel, meshes: &[TriangleMesh], ray: &Ray, what: &str) {
-    let (hit, truth) = (accel.intersect1(ray), brute_force(meshes, ray));
-    let bits = |hit: &Hit| (hit.t.to_bits(), hit.b.map(f32::to_bits), hit.shape, hit.triangle);
-    assert_eq!(bits(&hit), bits(&truth), "{what}: {ray:?}: {hit:?}, all triangles give {truth:?}");
-    assert_eq!(accel.occluded1(ray), truth.is_hit(), "{what}: {ray:?}");
+/// Caught: boxes that are not padded, or for the largest coordinate alone; -0 taken for forwards; t_min
+/// ignored, and t_max by `occluded`; ties broken by the order of the tree; the box of a tree of one leaf left
+/// empty; a batch's second half left out.
+#[test]
+fn trees_of_all_sizes_give_what_a_loop_gives() {
+    scenes_of_all_sizes(10_000, 6_000_000, 3000);
 }
 
-/// Scenes: triangles of all sizes; a closed mesh twice, in the same place; a grid in a plane of the axes.
-fn scenes() -> Vec<Vec<TriangleMesh>> {
-    let mut rng = Rng::new(840, 0);
-    let wild: Vec<[Vec3; 3]> = (0..300)
-        .map(|_| {
-            let (at, size) = (rng.point(1.0), rng.coordinate(1.0).abs());
-            [(); 3].map(|()| at + size * rng.direction())
-        })
-        .collect();
-    let grid: Vec<[Vec3; 3]> = (0..64)
-        .flat_map(|i| {
-            let (x, y) = ((i % 8) as f32 - 4.0, (i / 8) as f32 - 4.0);
-            let at = |dx: f32, dy: f32| Vec3::new(x + dx, 1.0, y + dy);
-            [[at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0)], [at(0.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)]]
-        })
-        .collect();
+/// As above, ten times as many rays.
+#[test]
+#[ignore = "takes a minute"]
+fn trees_of_all_sizes_give_what_a_loop_gives_in_full() {
+    scenes_of_all_sizes(20_000, 60_000_000, 30_000);
+}
+
+/// Surfaces as scenes have them: a closed mesh twice, in the same place; a grid in a plane of the axes beside
+/// a lump.
+fn surfaces(test: u64, tests: usize) {
     let lump = lumpy(3, 5);
-    vec![
-        vec![soup(&wild)],
-        vec![lump.clone(), TriangleMesh::default(), lump.clone()],
-        vec![soup(&grid), placed(lump, 0.5, Vec3::new(0.0, 2.0, 0.0))],
-    ]
+    let twice = [lump.clone(), TriangleMesh::default(), lump.clone()];
+    assert_scene(&twice, test, tests, tests, "a lump twice");
+    let beside = [grid(8), placed(lump, 0.5, Vec3::new(0.0, 2.0, 0.0))];
+    assert_scene(&beside, test + 1, tests, tests, "a grid beside a lump");
 }
 
-/// A ray of one of many kinds.
-fn some_ray(rng: &mut Rng, meshes: &[TriangleMesh]) -> Ray {
-    let mesh = loop {
-        let mesh = &meshes[rng.below(meshes.len())];
-        if !mesh.indices.is_empty() {
-            break mesh;
-        }
-    };
-    let triangle = rng.below(mesh.indices.len());
-    let corners = mesh.corners(triangle);
-    let b = rng.barycentric();
-    let on_surface = b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2];
-    let o = match rng.below(5) {
-        0 => on_surface,
-        1 => corners[0],
-        2 => rng.point(3.0),
-        3 => rng.point(1.0).round(),
-        _ => 3.0 * rng.direction(),
-    };
-    let target = [on_surface, corners[0], 0.5 * (corners[0] + corners[1])][rng.below(3)];
-    let mut ray = match rng.below(6) {
-        // Towards the triangle, as from a camera.
-        0 | 1 => Ray::new(o, target - o),
-        // From the surface to a point, as shadow rays go.
-        2 => {
-            SurfaceInteraction::on_triangle(mesh, triangle, b, Vec3::Z).spawn_ray_to(rng.point(1.0))
-        }
-        // Along an axis, with zeros of both signs.
-        3 => {
-            let mut d = Vec3::new(0.0 * rng.sign(), 0.0 * rng.sign(), 0.0 * rng.sign());
-            d[rng.below(3)] = rng.sign();
-            let back = d * rng.f32() * 5.0;
-            Ray::new(if rng.sign() > 0.0 { on_surface - back } else { corners[0] - back }, d)
-        }
-        // In a plane of the axes.
-        4 => {
-            let mut d = rng.direction();
-            d[rng.below(3)] = 0.0 * rng.sign();
-            Ray::new(o, d)
-        }
-        _ => Ray::new(o, rng.direction()),
-    };
-    if ray.d == Vec3::ZERO {
-        ray.d = Vec3::X;
-    }
-    if rng.below(3) == 0 {
-        ray.t_min = rng.f32() * 2.0;
-    }
-    if rng.below(3) == 0 {
-        ray.t_max = ray.t_min + rng.f32() * 2.0;
-    }
-    ray
-}
-
-/// Caught: boxes that are not padded; -0 taken for forwards; t_min ignored by the triangle test, and t_max
-/// by `occluded1`; a ray cut short by a thousandth.
+/// Caught: the same, but for the empty box.
 #[test]
-fn the_tree_gives_what_a_loop_gives() {
-    for (number, meshes) in scenes().iter().enumerate() {
-        let accel = Accel::build(meshes);
-        let mut hits = 0;
-        for trial in 0..40_000 {
-            let mut rng = Rng::new(841 + number as u64, trial);
-            let ray = some_ray(&mut rng, meshes);
-            assert_same(&accel, meshes, &ray, &format!("scene {number}, trial {trial}"));
-            hits += u32::from(accel.intersect1(&ray).is_hit());
-        }
-        assert!(hits > 8000, "scene {number}: only {hits} rays hit");
-    }
+fn surfaces_give_what_a_loop_gives() {
+    surfaces(30_000, 4_000_000);
 }
 
-/// Batches give what single rays give. Caught: the last ray of a batch left out.
+/// As above, ten times as many rays.
 #[test]
-fn batches_give_what_single_rays_give() {
-    let meshes = &scenes()[1];
-    let accel = Accel::build(meshes);
-    for count in [0, 1, 7, 1000] {
-        let rays: Vec<Ray> =
-            (0..count).map(|trial| some_ray(&mut Rng::new(845, trial), meshes)).collect();
-        let mut hits = vec![Hit::MISS; rays.len()];
-        let mut occluded = vec![false; rays.len()];
-        accel.intersect(&rays, &mut hits);
-        accel.occluded(&rays, &mut occluded);
-        for (i, ray) in rays.iter().enumerate() {
-            assert_eq!(hits[i], accel.intersect1(ray), "ray {i} of {count}");
-            assert_eq!(occluded[i], hits[i].is_hit(), "ray {i} of {count}");
-        }
+#[ignore = "takes half a minute"]
+fn surfaces_give_what_a_loop_gives_in_full() {
+    surfaces(30_100, 40_000_000);
+}
+
+/// Sizes from 1e-8 to 1e8, each alone and all in one scene, some about the origin and some beside it. Caught:
+/// the same, but for the empty box.
+#[test]
+fn scenes_at_extreme_scales_give_what_a_loop_gives() {
+    let scales = [1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6, 1e8];
+    let mut all = Vec::new();
+    for (number, scale) in scales.into_iter().enumerate() {
+        let place = scale * Vec3::new(3.0, -5.0, 7.0);
+        let meshes = [placed(lumpy(1, 6), scale, Vec3::ZERO), placed(lumpy(1, 7), scale, place)];
+        assert_scene(&meshes, 31_000 + number as u64, 200_000, 4000, &format!("scale {scale}"));
+        all.extend(meshes);
+    }
+    assert_scene(&all, 31_100, 2_000_000, 4000, "all scales");
+}
+
+/// Shapes and triangles come back by the numbers they have, however large: 70,000 shapes of a few triangles,
+/// and one of 140,000. Caught: the shape cut to 16 bits; the triangle cut to 16 bits.
+#[test]
+fn large_numbers_come_back() {
+    let at = |i: usize| Vec3::new((i % 300) as f32, (i / 300) as f32, 0.0);
+    let tile = |i: usize| [Vec3::ZERO, Vec3::X, Vec3::Y].map(|corner| at(i) + 0.75 * corner);
+    let small = (0..70_000).map(|i| soup(&vec![tile(i); 1 + i % 2]));
+    let mut meshes: Vec<TriangleMesh> = small.collect();
+    let behind = (0..140_000).map(|i| tile(i).map(|corner| corner + Vec3::Z));
+    meshes.push(soup(&behind.collect::<Vec<_>>()));
+    let accel = Accel::build(&meshes);
+    let centre = Vec3::new(0.25, 0.25, 0.0);
+    let (mut rays, mut numbers) = (Vec::new(), Vec::new());
+    for i in (0..140_000).step_by(7) {
+        // From in front, where the small shapes end before the large one does, and from behind.
+        rays.push(Ray::new(at(i) + centre - 2.0 * Vec3::Z, Vec3::Z));
+        numbers.push(if i < 70_000 { (i, 0) } else { (70_000, i) });
+        rays.push(Ray::new(at(i) + centre + 2.0 * Vec3::Z, Vec3::NEG_Z));
+        numbers.push((70_000, i));
+    }
+    let mut hits = vec![Hit::MISS; rays.len()];
+    accel.intersect(&rays, &mut hits);
+    for (ray, (hit, (shape, triangle))) in rays.iter().zip(hits.iter().zip(numbers)) {
+        assert_eq!((hit.shape as usize, hit.triangle as usize), (shape, triangle), "{ray:?}");
+        assert_eq!(bits(hit), bits(&accel.intersect1(ray)), "{ray:?}");
     }
 }

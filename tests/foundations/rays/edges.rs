@@ -1,0 +1,34 @@
+//! The triangle test by itself, at the edges.
+
+use lobe::geometry::Ray;
+use lobe::glam::{Vec2, Vec3};
+use lobe::shape::ShearedRay;
+
+use crate::common::Rng;
+
+/// Which side of an edge a ray passes is told exactly, however close: along the z axis, where the shear
+/// rounds nothing, against the sign of the edge function in f64, which holds it. Caught: an edge function of
+/// 0 without its second look in f64, which hits beside the triangle. Caught as well: a ray along an edge
+/// taken to be outside of the triangle.
+#[test]
+fn edges_are_told_exactly() {
+    let ray = ShearedRay::new(&Ray::new(Vec3::ZERO, Vec3::Z));
+    let mut close = 0;
+    for trial in 0..200_000 {
+        let mut rng = Rng::new(811, trial);
+        // An edge past the axis within a few units of the last place, and a corner well off it.
+        let p = rng.direction().truncate();
+        let q = -p * rng.within(0.5, 2.0);
+        let nudge = |x: f32, rng: &mut Rng| (0..rng.below(4)).fold(x, |x, _| x.next_up());
+        let q = Vec2::new(nudge(q.x, &mut rng), nudge(q.y, &mut rng));
+        let r = p.perp() * rng.sign();
+        let corners = [p, q, r].map(|c| c.extend(1.0));
+        let edge = |a: Vec2, b: Vec2| a.as_dvec2().perp_dot(b.as_dvec2());
+        let e = [edge(p, q), edge(q, r), edge(r, p)];
+        let hit = e.iter().all(|&e| e >= 0.0) || e.iter().all(|&e| e <= 0.0);
+        let found = ray.intersect(&corners, 0.0, f32::INFINITY).is_some();
+        assert_eq!(found, hit, "trial {trial}: {corners:?}, edge functions {e:?}");
+        close += u32::from(p.x * q.y - p.y * q.x == 0.0 && e[0] != 0.0);
+    }
+    assert!(close > 1000, "only {close} edges needed more than f32");
+}

@@ -1,0 +1,97 @@
+//! Where a ray begins and ends, to the bit.
+
+use lobe::TriangleMesh;
+use lobe::accel::{Accel, Hit};
+use lobe::geometry::Ray;
+use lobe::glam::Vec3;
+
+use super::answers::{Loop, assert_answers};
+use super::kinds::{Kind, many};
+use crate::common::meshes::{grid, lumpy, placed};
+
+/// The ray with ranges that begin and end at the hit and one float beside it.
+fn around(ray: &Ray, hit: &Hit) -> [Ray; 9] {
+    let (t, below, above) = (hit.t, hit.t.next_down(), hit.t.next_up());
+    let range = |t_min: f32, t_max: f32| Ray { t_min, t_max, ..*ray };
+    [
+        range(ray.t_min, t),
+        range(ray.t_min, below),
+        range(ray.t_min, above),
+        range(t, ray.t_max),
+        range(above, ray.t_max),
+        range(below, ray.t_max),
+        range(t, t),
+        range(above, t),
+        range(t, below),
+    ]
+}
+
+/// A hit at t_max counts, and so does one at t_min; one float inside of them there is nothing. Caught: t_max
+/// left out of the range, and t_min; a box not entered at the very t_max; either limit ignored.
+#[test]
+fn ranges_end_at_the_very_float() {
+    let lump = lumpy(3, 8);
+    let meshes = [
+        lump.clone(),
+        grid(8),
+        placed(lump.clone(), 1e-3, Vec3::new(0.5, 2.0, 0.0)),
+        TriangleMesh::default(),
+        placed(lump, 1.5, Vec3::new(9.0, 1.0, -4.0)),
+    ];
+    let (accel, truth) = (Accel::build(&meshes), Loop::new(&meshes));
+    for kind in Kind::ALL {
+        let rays = many(kind, &meshes, 1200, 400);
+        let hits = rays.iter().map(|ray| (ray, truth.closest(ray))).filter(|(_, hit)| hit.is_hit());
+        let all: Vec<Ray> = hits.flat_map(|(ray, hit)| around(ray, &hit)).collect();
+        assert!(all.len() > 9 * 20 || kind == Kind::TrianglePlane, "{kind:?}: {} rays", all.len());
+        assert_answers(&accel, &truth, &all, &format!("{kind:?}"));
+        // What the loop says is meant: here stands what has to come out.
+        for (number, ranges) in all.chunks(9).enumerate() {
+            let t = ranges[0].t_max;
+            for (place, hit) in
+                [(0, true), (1, false), (3, true), (6, true), (7, false), (8, false)]
+            {
+                let found = accel.intersect1(&ranges[place]);
+                let same = found.is_hit() && found.t == t;
+                assert_eq!(same, hit, "{kind:?}, hit {number}: {:?}: {found:?}", ranges[place]);
+            }
+        }
+    }
+}
+
+/// Of equally near triangles the first counts: the lowest shape, and in it the lowest triangle. Wherever the
+/// tree holds them, and whatever lies between. Caught: of equals the last that the walk meets, and the first.
+#[test]
+fn the_first_of_equals_is_hit() {
+    let wall = grid(8);
+    // The same wall six times, in each with its triangles in another order.
+    let meshes: Vec<TriangleMesh> = (0..6)
+        .map(|turn| {
+            let mut mesh = wall.clone();
+            mesh.indices.rotate_left(turn * 23);
+            if turn % 2 == 1 {
+                mesh.indices.reverse();
+            }
+            mesh
+        })
+        .collect();
+    let (accel, truth) = (Accel::build(&meshes), Loop::new(&meshes));
+    let mut rays = Vec::new();
+    for x in -16..=16 {
+        for z in -16..=16 {
+            // Quarters: corners, edges and inner points of the cells.
+            let at = Vec3::new(x as f32 / 4.0, 1.0, z as f32 / 4.0);
+            for d in [Vec3::Y, Vec3::NEG_Y, Vec3::new(0.0, 2.0, 1.0), Vec3::new(0.5, -1.0, 0.25)] {
+                rays.push(Ray::new(at - d, d));
+            }
+        }
+    }
+    assert_answers(&accel, &truth, &rays, "six walls");
+    let mut later = 0;
+    for ray in &rays {
+        let hit = accel.intersect1(ray);
+        assert!(hit.shape == 0, "{ray:?}: {hit:?}");
+        later += u32::from(hit.triangle > 0);
+    }
+    assert!(later > 1000, "only {later} rays hit another triangle than the first");
+}

@@ -1,0 +1,86 @@
+//! Rays that are none, and rays of odd lengths.
+
+use lobe::accel::{Accel, Hit};
+use lobe::geometry::Ray;
+use lobe::glam::Vec3;
+
+use super::answers::{Loop, assert_answers};
+use super::kinds;
+use crate::common::Rng;
+use crate::common::meshes::lumpy;
+
+/// Zeros, infinities and NaN as origin, direction and range: the walk ends, and gives what a loop gives,
+/// which is never a hit at a distance that is none. Caught: a t of NaN taken for a hit; eight rays that all
+/// miss when one of them is NaN.
+#[test]
+fn rays_that_are_none() {
+    for levels in [0, 1, 3] {
+        let meshes = [lumpy(levels, 4)];
+        let (accel, truth) = (Accel::build(&meshes), Loop::new(&meshes));
+        let rays = kinds::none();
+        assert_answers(&accel, &truth, &rays, &format!("{levels} levels"));
+        for ray in &rays {
+            let hit = accel.intersect1(ray);
+            assert!(!hit.is_hit() || hit.t.is_finite(), "{ray:?}: {hit:?}");
+        }
+    }
+}
+
+/// The longest directions and the shortest, which leave the range in which a t can be told: the walk ends, and
+/// what it finds is a triangle. Caught: a box entered whatever NaN says, and a t of NaN taken for a hit.
+#[test]
+fn directions_at_the_ends_of_floats() {
+    let accel = Accel::build(&[lumpy(3, 4)]);
+    let ends = [0.0, f32::MAX, f32::MIN, f32::MIN_POSITIVE, 1e-45, -1e-45];
+    for d in ends.iter().flat_map(|&x| ends.map(|y| ends.map(|z| Vec3::new(x, y, z)))).flatten() {
+        for o in [Vec3::ZERO, 3.0 * Vec3::X, Vec3::splat(1e12), Vec3::splat(f32::MAX)] {
+            let rays = [Ray::new(o, d); 9];
+            let mut hits = [Hit::MISS; 9];
+            let mut occluded = [false; 9];
+            accel.intersect(&rays, &mut hits);
+            accel.occluded(&rays, &mut occluded);
+            hits[8] = accel.intersect1(&rays[0]);
+            accel.occluded1(&rays[0]);
+            let sound = |hit: &Hit| !hit.is_hit() || hit.t >= 0.0 && hit.triangle < 512;
+            assert!(hits.iter().all(sound), "{o}, {d}: {hits:?}");
+        }
+    }
+}
+
+/// Directions of any length give the same hits. Caught: a bound on the error of t in units that suit
+/// directions of unit length alone.
+#[test]
+fn directions_of_any_length() {
+    let accel = Accel::build(&[lumpy(3, 4)]);
+    for trial in 0..50_000 {
+        let mut rng = Rng::new(838, trial);
+        let (o, d) = (2.0 * rng.direction(), rng.direction());
+        let reference = accel.intersect1(&Ray::new(o, d));
+        for exponent in [-100, -60, 60, 100] {
+            let scale = (exponent as f32).exp2();
+            let hit = accel.intersect1(&Ray::new(o, d * scale));
+            assert_eq!(hit.triangle, reference.triangle, "trial {trial}, 2^{exponent}");
+            assert!(!hit.is_hit() || hit.t == reference.t / scale, "trial {trial}, 2^{exponent}");
+        }
+    }
+}
+
+/// A direction that is no number hits nothing, next to good rays in a batch too; and the good ones hit.
+/// Caught: as above; eight rays walked in the octant of the first.
+#[test]
+fn one_bad_ray_spoils_no_batch() {
+    let accel = Accel::build(&[lumpy(3, 4)]);
+    for place in 0..40 {
+        for bad in [Vec3::ZERO, Vec3::NAN, Vec3::X * f32::NAN, Vec3::INFINITY, -Vec3::ZERO] {
+            let mut rays = vec![Ray::new(Vec3::ZERO, Vec3::new(0.1, 0.2, 1.0)); 40];
+            rays[place].d = bad;
+            let mut hits = vec![Hit::MISS; 40];
+            let mut occluded = vec![false; 40];
+            accel.intersect(&rays, &mut hits);
+            accel.occluded(&rays, &mut occluded);
+            for i in 0..40 {
+                assert_eq!((hits[i].is_hit(), occluded[i]), (i != place, i != place), "{bad}, {i}");
+            }
+        }
+    }
+}
