@@ -38,7 +38,7 @@ impl<L: Lanes> Needle<L> {
     /// All lanes compute what [`ShearedRay::intersect`] computes, to the bit.
     #[inline(always)]
     pub fn meets(&self, leaf: Leaf, t_max: f32) -> Option<Met<L>> {
-        // All corners in the space where the ray starts at the origin and runs along +z; z is not scaled yet.
+        // All corners in the space where the ray starts at the origin and runs along z.
         let z = self.moved(leaf, 2);
         let [x, y] = [self.moved(leaf, 0), self.moved(leaf, 1)];
         let [x, y] = [sheared(x, self.shear[0], z), sheared(y, self.shear[1], z)];
@@ -53,8 +53,8 @@ impl<L: Lanes> Needle<L> {
             return None;
         }
         let determinant = e0.add(e1).add(e2);
-        let scaled = |p: [L; 3]| p[2].mul(self.shear[2]);
-        let t = e0.mul(scaled(a)).add(e1.mul(scaled(b))).add(e2.mul(scaled(c))).div(determinant);
+        let depth = e0.mul(a[2]).add(e1.mul(b[2])).add(e2.mul(c[2])).div(determinant);
+        let t = depth.mul(self.shear[2]);
         let in_range = self.t_min.le(t) & t.le(L::splat(t_max));
         let unsure = unsure & lanes;
         Some(Met { lanes: lanes & in_range | unsure, unsure, t })

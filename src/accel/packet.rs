@@ -84,12 +84,15 @@ impl<'a, L: Lanes> Packet<'a, L> {
         let [x, y, z] = self.axes;
         let low = |axis: usize| L::splat(node.planes[axis % 3][slot % LANES]);
         let high = |axis: usize| L::splat(node.planes[axis % 3 + 3][slot % LANES]);
-        let (low_z, high_z) = (low(z).sub(self.o[2]).sub(padding), high(z).sub(self.o[2]).add(padding));
+        let (low_z, high_z) =
+            (low(z).sub(self.o[2]).sub(padding), high(z).sub(self.o[2]).add(padding));
         // Where each ray is when it passes both ends of the box in z.
         let (low_x, high_x) = (self.shear[0].mul(low_z), self.shear[0].mul(high_z));
         let (low_y, high_y) = (self.shear[1].mul(low_z), self.shear[1].mul(high_z));
-        let (from_x, to_x) = (low(x).sub(self.o[0]).sub(padding), high(x).sub(self.o[0]).add(padding));
-        let (from_y, to_y) = (low(y).sub(self.o[1]).sub(padding), high(y).sub(self.o[1]).add(padding));
+        let (from_x, to_x) =
+            (low(x).sub(self.o[0]).sub(padding), high(x).sub(self.o[0]).add(padding));
+        let (from_y, to_y) =
+            (low(y).sub(self.o[1]).sub(padding), high(y).sub(self.o[1]).add(padding));
         let zero = L::splat(0.0);
         zero.le(to_x.add(low_x.max(high_x)))
             & from_x.add(low_x.min(high_x)).le(zero)
@@ -138,11 +141,11 @@ impl<'a, L: Lanes> Packet<'a, L> {
         let mut any = false;
         if inside != 0 {
             let determinant = e0.add(e1).add(e2);
-            let z = [a[2].mul(self.shear[2]), b[2].mul(self.shear[2]), c[2].mul(self.shear[2])];
-            let t = e0.mul(z[0]).add(e1.mul(z[1])).add(e2.mul(z[2])).div(determinant);
-            let mut met = inside & self.t_min.le(t) & t.le(self.t_max);
+            let depth = e0.mul(a[2]).add(e1.mul(b[2])).add(e2.mul(c[2])).div(determinant);
+            let t = depth.mul(self.shear[2]);
+            let mut met = inside & self.t_min.le(t) & t.le(self.t_max) & zero.lt(t);
             if met != 0 {
-                met &= least_t([a, b, c], z, [e0, e1, e2], determinant).lt(t);
+                met &= least_depth([a, b, c], [e0, e1, e2], determinant).lt(depth.abs());
                 // Of two at the same distance the first triangle counts.
                 met &= t.lt(self.t_max) | self.numbered_above(number, met & t.eq(self.t_max));
                 self.keep(met, t, [e0, e1, e2], determinant, number);
@@ -155,7 +158,7 @@ impl<'a, L: Lanes> Packet<'a, L> {
         any
     }
 
-    /// A corner in the space of each ray, where it starts at the origin and runs along +z; z is not scaled.
+    /// A corner in the space of each ray, where it starts at the origin and runs along z.
     #[inline(always)]
     fn corner(&self, leaf: Leaf, lane: u32, corner: usize) -> [L; 3] {
         let [x, y, z] = self.axes;
@@ -249,18 +252,16 @@ fn edge<L: Lanes>(p: [L; 3], q: [L; 3]) -> L {
     p[0].mul(q[1]).sub(p[1].mul(q[0]))
 }
 
-/// The bound on the error of t, as for one triangle.
+/// The bound on the error of the depth, as for one triangle.
 #[inline(always)]
-fn least_t<L: Lanes>(corners: [[L; 3]; 3], z_scaled: [L; 3], e: [L; 3], determinant: L) -> L {
-    let [a, b, c] = corners;
+fn least_depth<L: Lanes>([a, b, c]: [[L; 3]; 3], e: [L; 3], determinant: L) -> L {
     let max_x = largest(a[0], b[0], c[0]);
     let max_y = largest(a[1], b[1], c[1]);
-    let max_unscaled_z = largest(a[2], b[2], c[2]);
-    let max_z = largest(z_scaled[0], z_scaled[1], z_scaled[2]);
+    let max_z = largest(a[2], b[2], c[2]);
     let (gamma2, gamma3, gamma5) = (L::splat(gamma(2)), L::splat(gamma(3)), L::splat(gamma(5)));
     let delta_z = gamma3.mul(max_z);
-    let delta_x = gamma5.mul(max_x.add(max_unscaled_z));
-    let delta_y = gamma5.mul(max_y.add(max_unscaled_z));
+    let delta_x = gamma5.mul(max_x.add(max_z));
+    let delta_y = gamma5.mul(max_y.add(max_z));
     let products = gamma2.mul(max_x).mul(max_y).add(delta_y.mul(max_x)).add(delta_x.mul(max_y));
     let delta_e = L::splat(2.0).mul(products);
     let max_e = largest(e[0], e[1], e[2]);

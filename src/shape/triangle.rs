@@ -34,7 +34,7 @@ pub struct ShearedRay {
     pub(crate) o: [f32; 3],
     /// The axes that become x, y and z; z is where the direction is longest.
     pub(crate) axes: [usize; 3],
-    /// What is added to x and y in proportion to z, and the factor of z.
+    /// What is added to x and y in proportion to z, and how much t there is to z.
     pub(crate) shear: [f32; 3],
 }
 
@@ -94,7 +94,7 @@ impl ShearedRay {
         t_max: f32,
     ) -> Option<TriangleHit> {
         // One coordinate of all three corners at a time, in the space where the ray starts at the origin
-        // and runs along +z; z is not scaled yet.
+        // and runs along z.
         let along = |i: usize| {
             let axis = self.axes[i];
             let p = Vec3A::new(coordinate(0, axis), coordinate(1, axis), coordinate(2, axis));
@@ -115,10 +115,13 @@ impl ShearedRay {
         if determinant == 0.0 {
             return None;
         }
-        // z is scaled only here: most triangles have been left by now.
-        let z_scaled = z * self.shear[2];
-        let t = sum(e * z_scaled) / determinant;
-        let in_range = t >= t_min && t <= t_max && t > least_t([x, y, z], z_scaled, e, determinant);
+        // Depth first: products with a scaled z could leave the range of f32.
+        let depth = sum(e * z) / determinant;
+        let t = depth * self.shear[2];
+        let in_range = t >= t_min
+            && t <= t_max
+            && t > 0.0
+            && depth.abs() > least_depth([x, y, z], e, determinant);
         in_range.then(|| TriangleHit { t, b: (e / determinant).to_array() })
     }
 }
@@ -146,18 +149,14 @@ fn edges_f64(x: Vec3A, y: Vec3A) -> Vec3A {
     Vec3A::new(edge(1, 2), edge(2, 0), edge(0, 1))
 }
 
-/// The bound on the error of t: a hit at or below it may lie behind the origin
-/// (PBRT 3rd edition, section 3.9.6).
-///
-/// The shear adds z in proportion to x and y before z is scaled, so that its error goes with z as it is.
-/// PBRT takes the scaled z, which is the same only for directions of unit length.
+/// The bound on the error of the depth: a hit at or below it may lie behind the origin
+/// (PBRT 3rd edition, section 3.9.6, where z is scaled to be t).
 #[inline]
-fn least_t([x, y, z]: [Vec3A; 3], z_scaled: Vec3A, e: Vec3A, determinant: f32) -> f32 {
-    let [max_x, max_y, max_unscaled_z] = [x, y, z].map(|v| v.abs().max_element());
-    let max_z = z_scaled.abs().max_element();
+fn least_depth([x, y, z]: [Vec3A; 3], e: Vec3A, determinant: f32) -> f32 {
+    let [max_x, max_y, max_z] = [x, y, z].map(|v| v.abs().max_element());
     let delta_z = gamma(3) * max_z;
-    let delta_x = gamma(5) * (max_x + max_unscaled_z);
-    let delta_y = gamma(5) * (max_y + max_unscaled_z);
+    let delta_x = gamma(5) * (max_x + max_z);
+    let delta_y = gamma(5) * (max_y + max_z);
     let delta_e = 2.0 * (gamma(2) * max_x * max_y + delta_y * max_x + delta_x * max_y);
     let max_e = e.abs().max_element();
     3.0 * (gamma(3) * max_e * max_z + delta_e * max_z + delta_z * max_e) / determinant.abs()

@@ -126,14 +126,7 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
-    fn push_slots(
-        self,
-        stack: &mut Stack,
-        len: usize,
-        mask: Mask,
-        first: u32,
-        flip: u32,
-    ) -> usize {
+    fn push_slots(self, stack: &mut Stack, len: usize, mask: Mask, first: u32, flip: u32) -> usize {
         let (waiting, enters) = stack.room(len);
         // SAFETY: as for `push`.
         unsafe {

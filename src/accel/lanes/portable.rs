@@ -135,14 +135,7 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
-    fn push_slots(
-        self,
-        stack: &mut Stack,
-        len: usize,
-        mask: Mask,
-        first: u32,
-        flip: u32,
-    ) -> usize {
+    fn push_slots(self, stack: &mut Stack, len: usize, mask: Mask, first: u32, flip: u32) -> usize {
         self.push(stack, len, mask, &from_fn(|i| first + i as u32), flip)
     }
 }
