@@ -103,5 +103,8 @@ impl Accel {
     dispatch!(surely_closest_of_one(accel, stack, ray: &Ray) -> Hit, <L> {
         accel.find::<L, true>(stack, ray).unwrap_or(Hit::MISS)
     });
+    dispatch!(surely_any_of_one(accel, stack, ray: &Ray) -> bool, <L> {
+        accel.find_any::<L, true>(stack, ray).unwrap_or(false)
+    });
     dispatch!(any_of_one(accel, stack, ray: &Ray) -> bool, <L> accel.any::<L>(stack, ray));
 }

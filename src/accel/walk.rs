@@ -7,10 +7,9 @@ use super::node::Child;
 use super::packet::Packet;
 use super::slabs::Slabs;
 use super::stack::Stack;
-use super::triangles::Leaf;
 use super::{Accel, Hit};
 use crate::geometry::Ray;
-use crate::shape::{ShearedRay, TriangleHit};
+use crate::shape::ShearedRay;
 
 /// A triangle in a leaf.
 #[derive(Clone, Copy)]
@@ -92,13 +91,16 @@ impl Accel {
                 };
                 let leaf = self.triangles.leaf(first, count);
                 if let Some(met) = needle.meets(leaf, t_max) {
+                    if !SURE && met.unsure != 0 {
+                        return Err(Unsure);
+                    }
                     let mut lanes = met.lanes;
                     while lanes != 0 {
                         let lane = lanes.trailing_zeros();
                         lanes &= lanes - 1;
                         let mut t = met.t.lane(lane);
-                        if SURE || met.unsure >> lane & 1 == 1 {
-                            let hit = hit_apart(&sheared, leaf, lane, ray.t_min, t_max);
+                        if SURE {
+                            let hit = hit(&sheared, leaf, lane, ray.t_min, t_max);
                             let Some(hit) = hit else { continue };
                             t = hit.t;
                         }
@@ -185,14 +187,34 @@ impl Accel {
     /// Whether one ray hits anything.
     #[inline(always)]
     pub(super) fn any<L: Lanes>(&self, stack: &mut Stack, ray: &Ray) -> bool {
+        match self.find_any::<L, false>(stack, ray) {
+            Ok(found) => found,
+            Err(Unsure) => self.surely_any(stack, ray),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn surely_any(&self, stack: &mut Stack, ray: &Ray) -> bool {
+        self.surely_any_of_one(stack, ray)
+    }
+
+    /// Whether the ray hits anything. If `SURE`, all triangles that it may hit are asked, else the first.
+    #[inline(always)]
+    pub(super) fn find_any<L: Lanes, const SURE: bool>(
+        &self,
+        stack: &mut Stack,
+        ray: &Ray,
+    ) -> Result<bool, Unsure> {
         let sheared = ShearedRay::new(ray);
         if self.nodes.is_empty() || !is_sound(ray, &sheared) {
-            return false;
+            return Ok(false);
         }
         let needle = Needle::<L>::new(&sheared, ray.t_min);
         let slabs = Slabs::<L>::new(ray, self.largest_coordinate);
         let mut waiting = 0;
         let mut node = &self.nodes[0];
+        let found;
         'nodes: loop {
             let lanes = slabs.meets(node);
             let mut child;
@@ -204,7 +226,7 @@ impl Accel {
             } else if let Some(next) = pop(stack, &mut waiting, f32::INFINITY) {
                 child = next;
             } else {
-                return false;
+                return Ok(false);
             }
             loop {
                 let (first, count) = match Child::new(child) {
@@ -217,20 +239,27 @@ impl Accel {
                 let leaf = self.triangles.leaf(first, count);
                 if let Some(met) = needle.meets(leaf, ray.t_max) {
                     let mut lanes = met.lanes;
+                    if !SURE && lanes != 0 {
+                        found = (leaf, lanes.trailing_zeros());
+                        break 'nodes;
+                    }
                     while lanes != 0 {
                         let lane = lanes.trailing_zeros();
-                        if hit_apart(&sheared, leaf, lane, ray.t_min, ray.t_max).is_some() {
-                            return true;
+                        if hit(&sheared, leaf, lane, ray.t_min, ray.t_max).is_some() {
+                            return Ok(true);
                         }
                         lanes &= lanes - 1;
                     }
                 }
                 match pop(stack, &mut waiting, f32::INFINITY) {
                     Some(next) => child = next,
-                    None => return false,
+                    None => return Ok(false),
                 }
             }
         }
+        let (leaf, lane) = found;
+        let hit = hit(&sheared, leaf, lane, ray.t_min, ray.t_max);
+        hit.map(|_| true).ok_or(Unsure)
     }
 
     /// The mesh of a triangle, and its number there.
@@ -244,7 +273,8 @@ impl Accel {
     }
 }
 
-/// The nearest triangle did not pass the bound on the error of t: rounding may have made it up.
+/// A triangle was met that only the test of one triangle can tell: an edge function is zero, or rounding may
+/// have made the hit up. Such rays are rare, and walk once more.
 pub(super) struct Unsure;
 
 /// The next child that the ray enters before `t_max`.
@@ -265,16 +295,4 @@ fn pop(stack: &Stack, waiting: &mut usize, t_max: f32) -> Option<u32> {
 fn is_sound(ray: &Ray, sheared: &ShearedRay) -> bool {
     let [x, y, z] = sheared.shear;
     !(x + y + z).is_nan() && (ray.o.x + ray.o.y + ray.o.z).is_finite()
-}
-
-/// [`hit`] out of the way of the vectors of a walk.
-#[inline(never)]
-fn hit_apart(
-    sheared: &ShearedRay,
-    leaf: Leaf,
-    lane: u32,
-    t_min: f32,
-    t_max: f32,
-) -> Option<TriangleHit> {
-    hit(sheared, leaf, lane, t_min, t_max)
 }
