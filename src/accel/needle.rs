@@ -6,10 +6,10 @@ use crate::shape::{ShearedRay, TriangleHit};
 
 /// A ray prepared for triangles.
 pub struct Needle<L> {
-    axes: [usize; 3],
-    o: [L; 3],
-    shear: [L; 3],
-    t_min: L,
+    pub axes: [usize; 3],
+    pub o: [L; 3],
+    pub shear: [L; 3],
+    pub t_min: L,
 }
 
 /// Triangles that the ray meets, or may meet.
@@ -37,7 +37,7 @@ impl<L: Lanes> Needle<L> {
     ///
     /// All lanes compute what [`ShearedRay::intersect`] computes, to the bit.
     #[inline(always)]
-    pub fn meets(&self, leaf: Leaf, t_max: f32) -> Option<Met<L>> {
+    pub fn meets(&self, leaf: Leaf, t_max: L) -> Option<Met<L>> {
         // All corners in the space where the ray starts at the origin and runs along z.
         let z = self.moved(leaf, 2);
         let [x, y] = [self.moved(leaf, 0), self.moved(leaf, 1)];
@@ -55,7 +55,7 @@ impl<L: Lanes> Needle<L> {
         let determinant = e0.add(e1).add(e2);
         let depth = e0.mul(a[2]).add(e1.mul(b[2])).add(e2.mul(c[2])).div(determinant);
         let t = depth.mul(self.shear[2]);
-        let in_range = self.t_min.le(t) & t.le(L::splat(t_max));
+        let in_range = self.t_min.le(t) & t.le(t_max);
         let unsure = unsure & lanes;
         Some(Met { lanes: lanes & in_range | unsure, unsure, t })
     }

@@ -1,7 +1,7 @@
 //! [`Packet`]: sixteen rays that go much the same way, against triangles one by one.
 
 use super::lanes::{LANES, Lanes, Mask, splat3};
-use super::needle::{Needle, hit};
+use super::needle::Needle;
 use super::node::Node;
 use super::triangles::Leaf;
 use super::{Accel, Hit};
@@ -100,33 +100,17 @@ impl<'a, L: Lanes> Packet<'a, L> {
             & from_y.add(low_y.min(high_y)).le(zero)
     }
 
-    /// Tests all triangles of a leaf for one ray; whether it meets one before what it met so far.
+    /// Which triangles of a leaf one ray may meet before what it met so far.
     #[inline(always)]
-    pub fn meet_all(&mut self, accel: &Accel, leaf: Leaf, first: u32, i: u32) -> bool {
-        let lane = |x: L| x.lane(i);
-        let [ox, oy, oz] = self.o;
-        let [sx, sy, sz] = self.shear;
-        let sheared = ShearedRay {
-            o: [lane(ox), lane(oy), lane(oz)],
+    pub fn meets(&self, leaf: Leaf, ray: u32) -> Mask {
+        let spread = |[x, y, z]: [L; 3]| [x.spread(ray), y.spread(ray), z.spread(ray)];
+        let needle = Needle {
             axes: self.axes,
-            shear: [lane(sx), lane(sy), lane(sz)],
+            o: spread(self.o),
+            shear: spread(self.shear),
+            t_min: self.t_min.spread(ray),
         };
-        let t_min = lane(self.t_min);
-        let needle = Needle::<L>::new(&sheared, t_min);
-        let Some(met) = needle.meets(leaf, lane(self.t_max)) else { return false };
-        let (mut lanes, mut any) = (met.lanes, false);
-        while lanes != 0 {
-            let lane = lanes.trailing_zeros();
-            lanes &= lanes - 1;
-            let t_max = self.t_max.lane(i);
-            let Some(hit) = hit(&sheared, leaf, lane, t_min, t_max) else { continue };
-            let number = accel.triangles.number(first + lane);
-            if hit.t < t_max || self.numbered_above(number, 1 << i) != 0 {
-                self.keep(1 << i, L::splat(hit.t), splat3(hit.b), L::splat(1.0), number);
-                any = true;
-            }
-        }
-        any
+        needle.meets(leaf, self.t_max.spread(ray)).map_or(0, |met| met.lanes)
     }
 
     /// Tests one triangle of a leaf; whether a ray meets it before what it met so far.

@@ -90,7 +90,7 @@ impl Accel {
                     Child::Leaf { first, count } => (first, count),
                 };
                 let leaf = self.triangles.leaf(first, count);
-                if let Some(met) = needle.meets(leaf, t_max) {
+                if let Some(met) = needle.meets(leaf, L::splat(t_max)) {
                     if !SURE && met.unsure != 0 {
                         return Err(Unsure);
                     }
@@ -163,9 +163,16 @@ impl Accel {
                 let mut any = false;
                 let mut rays = packet.enters(node, slot, frustum.padding);
                 if 4 * rays.count_ones() < 3 * lanes.count_ones() {
-                    while rays != 0 {
-                        any |= packet.meet_all(self, leaf, first, rays.trailing_zeros());
+                    // Few rays against many triangles: each ray against all.
+                    while rays != 0 && lanes != 0 {
+                        let mut met = packet.meets(leaf, rays.trailing_zeros()) & lanes;
                         rays &= rays - 1;
+                        lanes &= !met;
+                        while met != 0 {
+                            let lane = met.trailing_zeros();
+                            met &= met - 1;
+                            any |= packet.meet(leaf, lane, self.triangles.number(first + lane));
+                        }
                     }
                 } else {
                     while lanes != 0 {
@@ -237,7 +244,7 @@ impl Accel {
                     Child::Leaf { first, count } => (first, count),
                 };
                 let leaf = self.triangles.leaf(first, count);
-                if let Some(met) = needle.meets(leaf, ray.t_max) {
+                if let Some(met) = needle.meets(leaf, L::splat(ray.t_max)) {
                     let mut lanes = met.lanes;
                     if !SURE && lanes != 0 {
                         found = (leaf, lanes.trailing_zeros());

@@ -99,6 +99,11 @@ impl Lanes for Avx512 {
         unsafe { _mm512_cvtss_f32(_mm512_maskz_compress_ps(1 << lane, self.0)) }
     }
     #[inline(always)]
+    fn spread(self, lane: u32) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm512_permutexvar_ps(_mm512_set1_epi32(lane as i32), self.0) })
+    }
+    #[inline(always)]
     fn flipped(self, flip: u32) -> Self {
         // SAFETY: as above.
         Self(unsafe { _mm512_permutexvar_ps(flips(flip), self.0) })

@@ -55,6 +55,8 @@ pub trait Lanes: Copy {
     fn greatest(self) -> f32;
     /// The number in a lane.
     fn lane(self, lane: u32) -> f32;
+    /// The number in a lane in all lanes.
+    fn spread(self, lane: u32) -> Self;
     /// Lane `i` becomes lane `i ^ flip`.
     fn flipped(self, flip: u32) -> Self;
     /// Puts the children in the lanes of `mask`, after lanes were flipped as by [`Lanes::flipped`], on the

@@ -110,6 +110,10 @@ impl Lanes for Portable {
         self.0[lane as usize % LANES]
     }
     #[inline(always)]
+    fn spread(self, lane: u32) -> Self {
+        Self::splat(self.lane(lane))
+    }
+    #[inline(always)]
     fn flipped(self, flip: u32) -> Self {
         Self(from_fn(|i| self.0[(i ^ flip as usize) % LANES]))
     }
