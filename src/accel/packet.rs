@@ -86,6 +86,7 @@ impl<'a, L: Lanes> Packet<'a, L> {
         let high = |axis: usize| L::splat(node.planes[axis % 3 + 3][slot % LANES]);
         let (low_z, high_z) =
             (low(z).sub(self.o[2]).sub(padding), high(z).sub(self.o[2]).add(padding));
+        let near_t = (if self.backwards { high_z } else { low_z }).mul(self.shear[2]);
         // Where each ray is when it passes both ends of the box in z.
         let (low_x, high_x) = (self.shear[0].mul(low_z), self.shear[0].mul(high_z));
         let (low_y, high_y) = (self.shear[1].mul(low_z), self.shear[1].mul(high_z));
@@ -98,6 +99,7 @@ impl<'a, L: Lanes> Packet<'a, L> {
             & from_x.add(low_x.min(high_x)).le(zero)
             & zero.le(to_y.add(low_y.max(high_y)))
             & from_y.add(low_y.min(high_y)).le(zero)
+            & !self.t_max.lt(near_t)
     }
 
     /// Which triangles of a leaf one ray may meet before what it met so far.

@@ -11,6 +11,9 @@ use super::{Accel, Hit};
 use crate::geometry::Ray;
 use crate::shape::ShearedRay;
 
+/// So many rays at a leaf are few.
+const FEW: u32 = 4;
+
 /// A triangle in a leaf.
 #[derive(Clone, Copy)]
 struct Place {
@@ -156,18 +159,15 @@ impl Accel {
                     Child::Leaf { first, count } => (first, count),
                 };
                 let leaf = self.triangles.leaf(first, count);
-                let mut lanes = frustum.meets(leaf);
-                if lanes == 0 {
-                    continue;
-                }
-                let mut any = false;
                 let mut rays = packet.enters(node, slot, frustum.padding);
-                if 4 * rays.count_ones() < 3 * lanes.count_ones() {
-                    // Few rays against many triangles: each ray against all.
-                    while rays != 0 && lanes != 0 {
-                        let mut met = packet.meets(leaf, rays.trailing_zeros()) & lanes;
+                let mut any = false;
+                if rays.count_ones() <= FEW {
+                    // Few rays: each against all triangles at once.
+                    let mut seen = 0;
+                    while rays != 0 {
+                        let mut met = packet.meets(leaf, rays.trailing_zeros()) & !seen;
                         rays &= rays - 1;
-                        lanes &= !met;
+                        seen |= met;
                         while met != 0 {
                             let lane = met.trailing_zeros();
                             met &= met - 1;
@@ -175,6 +175,8 @@ impl Accel {
                         }
                     }
                 } else {
+                    // Many rays: all at once against each triangle.
+                    let mut lanes = frustum.meets(leaf);
                     while lanes != 0 {
                         let lane = lanes.trailing_zeros();
                         lanes &= lanes - 1;
