@@ -74,17 +74,25 @@ impl<L: Lanes> Frustum<L> {
         } else {
             [low.max(o[2].least()), high.min(packet.end(base[2]))]
         };
-        let (low_x, high_x, width) = lines(packet, 0, o, ends);
-        let (low_y, high_y, height) = lines(packet, 1, o, ends);
+        let (near_x, far_x) = at_ends(packet, 0, o, ends);
+        let (near_y, far_y) = at_ends(packet, 1, o, ends);
+        let [least, most] = L::extremes([near_x, far_x, near_y, far_y]);
+        let span = |i: usize| most[i] - least[i];
+        let width = span(0).max(span(1)).max(span(2).max(span(3)));
+        let per_length = if ends[0] < ends[1] { 1.0 / (ends[1] - ends[0]) } else { 0.0 };
+        let line = |near: f32, far: f32| {
+            let s = (far - near) * per_length;
+            Line { a: L::splat(near - s * ends[0]), s: L::splat(s), falls: s < 0.0 }
+        };
         let widest = WIDEST * (bounds.max - bounds.min).max_element();
-        // Also false if all rays end before they reach the scene.
-        let is_narrow = width <= widest && height <= widest && ends[0] <= ends[1];
+        // Rays that all end before they reach the scene meet no box.
+        let is_narrow = width <= widest || ends[0] > ends[1];
         is_narrow.then(|| Self {
             axes: packet.axes,
             base,
             padding: L::splat(padding),
-            low: [low_x, low_y],
-            high: [high_x, high_y],
+            low: [line(least[0], least[1]), line(least[2], least[3])],
+            high: [line(most[0], most[1]), line(most[2], most[3])],
             ends: [L::splat(ends[0]), L::splat(ends[1])],
             backwards: packet.backwards,
             flip: packet.octant() << 1 ^ (LANES as u32 - 1),
@@ -167,26 +175,11 @@ impl<L: Lanes> Frustum<L> {
     }
 }
 
-/// The bounds of x (`i` = 0) or y (`i` = 1) between two z, and how wide they are at most.
+/// x (`i` = 0) or y (`i` = 1) of all rays at two z.
 #[inline(always)]
-fn lines<L: Lanes>(
-    packet: &Packet<L>,
-    i: usize,
-    o: [L; 3],
-    ends: [f32; 2],
-) -> (Line<L>, Line<L>, f32) {
-    let s = L::splat(0.0).sub(packet.shear[i]);
-    let near = o[i].add(s.mul(L::splat(ends[0]).sub(o[2])));
-    let far = o[i].add(s.mul(L::splat(ends[1]).sub(o[2])));
-    let [near, far] = [[near.least(), near.greatest()], [far.least(), far.greatest()]];
-    let width = (near[1] - near[0]).max(far[1] - far[0]);
-    (line(ends, near[0], far[0]), line(ends, near[1], far[1]), width)
-}
-
-/// The line between the values at both ends.
-#[inline(always)]
-fn line<L: Lanes>(ends: [f32; 2], near: f32, far: f32) -> Line<L> {
-    let length = ends[1] - ends[0];
-    let s = if length > 0.0 { (far - near) / length } else { 0.0 };
-    Line { a: L::splat(near - s * ends[0]), s: L::splat(s), falls: s < 0.0 }
+fn at_ends<L: Lanes>(packet: &Packet<L>, i: usize, o: [L; 3], ends: [f32; 2]) -> (L, L) {
+    let slope = L::splat(0.0).sub(packet.shear[i]);
+    let near = o[i].add(slope.mul(L::splat(ends[0]).sub(o[2])));
+    let far = o[i].add(slope.mul(L::splat(ends[1]).sub(o[2])));
+    (near, far)
 }

@@ -2,6 +2,7 @@
 
 /// Where a ray meets a triangle first. Everything else about the hit is found from it on demand.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct Hit {
     /// Distance in lengths of the ray's direction; infinite for a ray that hits nothing.
     pub t: f32,

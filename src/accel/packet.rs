@@ -217,17 +217,16 @@ impl<'a, L: Lanes> Packet<'a, L> {
         let (e0, e1) = (e0.div(self.determinant), e1.div(self.determinant));
         let b = [e0.to_array(), e1.to_array(), e2.div(self.determinant).to_array()];
         let (t, numbers) = (self.t_max.to_array(), self.number.to_array());
-        let one_shape = accel.shapes.len() == 1;
-        for i in 0..LANES {
-            let number = numbers[i].to_bits();
-            let is_hit = number != NONE;
-            let (shape, triangle) = if one_shape || !is_hit {
-                (if is_hit { 0 } else { u32::MAX }, number)
-            } else {
-                accel.outside(number)
-            };
-            let t = if is_hit { t[i] } else { f32::INFINITY };
-            hits[i] = Hit { t, b: [b[0][i], b[1][i], b[2][i]], shape, triangle };
+        let number = |i: usize| numbers[i].to_bits();
+        for (i, hit) in hits.iter_mut().enumerate() {
+            // As if all triangles were of the first shape, which they mostly are.
+            let (t, shape) = if number(i) == NONE { (f32::INFINITY, u32::MAX) } else { (t[i], 0) };
+            *hit = Hit { t, b: [b[0][i], b[1][i], b[2][i]], shape, triangle: number(i) };
+        }
+        if accel.shapes.len() > 1 {
+            for hit in hits.iter_mut().filter(|hit| hit.is_hit()) {
+                (hit.shape, hit.triangle) = accel.outside(hit.triangle);
+            }
         }
     }
 }

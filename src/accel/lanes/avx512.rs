@@ -82,6 +82,26 @@ impl Lanes for Avx512 {
         unsafe { _mm512_reduce_max_ps(self.0) }
     }
     #[inline(always)]
+    fn extremes([a, b, c, d]: [Self; 4]) -> [[f32; 4]; 2] {
+        let mut extremes = [0.0; LANES];
+        // SAFETY: as above; the array has room for all lanes.
+        unsafe {
+            let least = quarters(a.0, b.0, c.0, d.0, |a, b| _mm512_min_ps(a, b));
+            let most = quarters(a.0, b.0, c.0, d.0, |a, b| _mm512_max_ps(a, b));
+            // In each quarter: two lanes of the least, two of the largest.
+            let (low, high) =
+                (_mm512_shuffle_ps::<0x44>(least, most), _mm512_shuffle_ps::<0xee>(least, most));
+            let both = _mm512_mask_max_ps(_mm512_min_ps(low, high), 0xcccc, low, high);
+            let other = _mm512_permute_ps::<0b10_11_00_01>(both);
+            let both = _mm512_mask_max_ps(_mm512_min_ps(both, other), 0xcccc, both, other);
+            _mm512_storeu_ps(extremes.as_mut_ptr(), both);
+        }
+        let of = |first: usize| {
+            [extremes[first], extremes[first + 4], extremes[first + 8], extremes[first + 12]]
+        };
+        [of(0), of(2)]
+    }
+    #[inline(always)]
     fn to_array(self) -> [f32; LANES] {
         let mut x = [0.0; LANES];
         // SAFETY: as above; the array has room for all lanes.
@@ -189,5 +209,23 @@ fn halves(a: __m512, b: __m512) -> [Avx512; 2] {
     // SAFETY: called from above.
     unsafe {
         [Avx512(_mm512_shuffle_f32x4::<0x88>(a, b)), Avx512(_mm512_shuffle_f32x4::<0xdd>(a, b))]
+    }
+}
+
+/// In each quarter of the result, what `f` makes of the four quarters of one of four vectors.
+#[inline(always)]
+fn quarters(
+    a: __m512,
+    b: __m512,
+    c: __m512,
+    d: __m512,
+    f: impl Fn(__m512, __m512) -> __m512,
+) -> __m512 {
+    // SAFETY: called from above.
+    unsafe {
+        // Two quarters of each vector: a, a, b, b and c, c, d, d.
+        let ab = f(_mm512_shuffle_f32x4::<0x44>(a, b), _mm512_shuffle_f32x4::<0xee>(a, b));
+        let cd = f(_mm512_shuffle_f32x4::<0x44>(c, d), _mm512_shuffle_f32x4::<0xee>(c, d));
+        f(_mm512_shuffle_f32x4::<0x88>(ab, cd), _mm512_shuffle_f32x4::<0xdd>(ab, cd))
     }
 }

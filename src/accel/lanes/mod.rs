@@ -53,6 +53,8 @@ pub trait Lanes: Copy {
     fn least(self) -> f32;
     /// The largest of all; NaN may be left out.
     fn greatest(self) -> f32;
+    /// The least and the largest lane of each of four vectors; NaN may be left out.
+    fn extremes(four: [Self; 4]) -> [[f32; 4]; 2];
     /// The number in a lane.
     fn lane(self, lane: u32) -> f32;
     /// The number in a lane in all lanes.

@@ -58,6 +58,10 @@ impl Lanes for Portable {
         self.0.into_iter().fold(f32::NEG_INFINITY, f32::max)
     }
     #[inline(always)]
+    fn extremes(four: [Self; 4]) -> [[f32; 4]; 2] {
+        [four.map(Self::least), four.map(Self::greatest)]
+    }
+    #[inline(always)]
     fn to_array(self) -> [f32; LANES] {
         self.0
     }
