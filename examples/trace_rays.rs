@@ -1,9 +1,9 @@
 //! Traces rays from files against a mesh and says how many hit, and how fast.
 //!
-//! `cargo run --release --example trace_rays -- MESH.obj FILE.rays... [--threads N] [--mode closest|any|batch]`
+//! `cargo run --release --example trace_rays -- MESH.obj FILE.rays... [--threads N] [--mode closest|any|batch|any-batch]`
 //!
 //! A ray file is a flat array of rays, each 8 little-endian f32: origin, t_min, direction, t_max. Each
-//! file is traced nine times; a line gives rays, hits, the sum of t over the hits (0 for `any`), and the
+//! file is traced nine times; a line gives rays, hits, the sum of t over the hits (0 where any hit counts), and the
 //! median and best of millions of rays per second.
 
 use std::error::Error;
@@ -24,6 +24,7 @@ enum Mode {
     Closest,
     Any,
     Batch,
+    AnyBatch,
 }
 
 struct Options {
@@ -47,7 +48,8 @@ fn options() -> Result<Options, Box<dyn Error>> {
                     Some("closest") => Mode::Closest,
                     Some("any") => Mode::Any,
                     Some("batch") => Mode::Batch,
-                    _ => return Err("--mode needs closest, any or batch".into()),
+                    Some("any-batch") => Mode::AnyBatch,
+                    _ => return Err("--mode needs closest, any, batch or any-batch".into()),
                 }
             }
             option if option.starts_with('-') => {
@@ -60,7 +62,7 @@ fn options() -> Result<Options, Box<dyn Error>> {
     }
     if files.len() < 2 {
         return Err(
-            "usage: trace_rays MESH.obj FILE.rays... [--threads N] [--mode closest|any|batch]"
+            "usage: trace_rays MESH.obj FILE.rays... [--threads N] [--mode closest|any|batch|any-batch]"
                 .into(),
         );
     }
@@ -101,6 +103,15 @@ fn trace(accel: &Accel, rays: &[Ray], mode: Mode) -> (usize, f64) {
                 (n + more, sum + t)
             })
         }
+        Mode::AnyBatch => {
+            let mut occluded = [false; BATCH];
+            let count = rays.chunks(BATCH).map(|rays| {
+                let occluded = &mut occluded[..rays.len()];
+                accel.occluded(rays, occluded);
+                occluded.iter().filter(|&&occluded| occluded).count()
+            });
+            (count.sum(), 0.0)
+        }
     }
 }
 
@@ -137,6 +148,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             Mode::Closest => kind.to_owned(),
             Mode::Any => format!("{kind}-any"),
             Mode::Batch => format!("{kind}-batch"),
+            Mode::AnyBatch => format!("{kind}-any-batch"),
         };
         let speed = |seconds: f64| rays.len() as f64 / seconds / 1e6;
         println!(

@@ -1,108 +1,147 @@
 //! [`Frustum`]: all that a packet of rays can meet, against boxes and triangles.
 
 use super::Aabb;
-use super::lanes::{LANES, Lanes, Mask};
+use super::lanes::{LANES, Lanes, Mask, splat3};
 use super::node::Node;
 use super::packet::Packet;
 use super::triangles::Leaf;
 
-/// The space between four planes and two ends around a packet of rays.
+/// The space between four planes and two ends around a beam: one packet of rays or a few.
 ///
 /// Seen from the origin of the first ray, each ray is a line x = a + s z with |s| at most 1, as z is the axis
 /// in which it is longest; y likewise. The largest x of all rays is convex in z, so the line between its
-/// values at both ends of the packet bounds it.
+/// values at both ends bounds it.
 pub struct Frustum<L> {
     axes: [usize; 3],
     /// Where the first ray begins.
     base: [L; 3],
     /// By how much all is taken to be larger.
     pub padding: L,
-    /// The bounds of x, and of y.
-    low: [Line<L>; 2],
-    high: [Line<L>; 2],
     /// Least and largest z.
     ends: [L; 2],
     backwards: bool,
     /// Turns slots into the order in which the rays meet them, the last one first.
     pub flip: u32,
+    /// Around all packets.
+    sides: Sides,
+    /// Around each.
+    of_packets: [Sides; PACKETS],
+}
+
+/// How many packets a beam has at most.
+pub const PACKETS: usize = 4;
+
+/// The bounds of x and of y.
+#[derive(Clone, Copy)]
+struct Sides {
+    low: [Line; 2],
+    high: [Line; 2],
 }
 
 /// x = a + s z.
-struct Line<L> {
-    a: L,
-    s: L,
-    falls: bool,
+#[derive(Clone, Copy)]
+struct Line {
+    a: f32,
+    s: f32,
 }
 
-impl<L: Lanes> Line<L> {
+impl Line {
     #[inline(always)]
-    fn at(&self, z: L) -> L {
-        self.a.add(self.s.mul(z))
+    fn at<L: Lanes>(&self, z: L) -> L {
+        L::splat(self.a).add(L::splat(self.s).mul(z))
     }
 
     /// The least x between two z.
     #[inline(always)]
-    fn least(&self, [low, high]: [L; 2]) -> L {
-        self.at(if self.falls { high } else { low })
+    fn least<L: Lanes>(&self, [low, high]: [L; 2]) -> L {
+        self.at(if self.s < 0.0 { high } else { low })
     }
 
     /// The largest x between two z.
     #[inline(always)]
-    fn greatest(&self, [low, high]: [L; 2]) -> L {
-        self.at(if self.falls { low } else { high })
+    fn greatest<L: Lanes>(&self, [low, high]: [L; 2]) -> L {
+        self.at(if self.s < 0.0 { low } else { high })
     }
 }
 
-/// Packets that are wider than this part of the scene have little in common.
+impl Sides {
+    /// From the least and largest x and y at both ends: x at the first, x at the second, y, y.
+    #[inline(always)]
+    fn new([least, most]: [[f32; 4]; 2], first_end: f32, per_length: f32) -> Self {
+        let line = |near: f32, far: f32| {
+            let s = (far - near) * per_length;
+            Line { a: near - s * first_end, s }
+        };
+        Self {
+            low: [line(least[0], least[1]), line(least[2], least[3])],
+            high: [line(most[0], most[1]), line(most[2], most[3])],
+        }
+    }
+}
+
+/// Beams that are wider than this part of the scene have little in common.
 const WIDEST: f32 = 1.0 / 16.0;
 
 impl<L: Lanes> Frustum<L> {
-    /// The frustum of a packet in a scene, if it is narrow.
+    /// The frustum of at least one packet in a scene, if it is narrow. All packets have the same axes and
+    /// run the same way.
     #[inline(always)]
-    pub fn new(packet: &Packet<L>, bounds: &Aabb, largest_coordinate: f32) -> Option<Self> {
-        let [x, y, z] = packet.o;
-        let base = [L::splat(x.lane(0)), L::splat(y.lane(0)), L::splat(z.lane(0))];
-        let o = [packet.o[0].sub(base[0]), packet.o[1].sub(base[1]), packet.o[2].sub(base[2])];
-        let farthest = packet.o[0].abs().max(packet.o[1].abs()).max(packet.o[2].abs());
+    pub fn new(packets: &[Packet<L>], bounds: &Aabb, largest_coordinate: f32) -> Option<Self> {
+        let first = &packets[0];
+        let [x, y, z] = first.o;
+        let base = [x.lane(0), y.lane(0), z.lane(0)];
+        let splat_base = splat3(base);
+        let mut farthest = L::splat(0.0);
+        let mut start = first.o[2];
+        for packet in packets {
+            let [x, y, z] = packet.o;
+            farthest = farthest.max(x.abs().max(y.abs()).max(z.abs()));
+            start = if first.backwards { start.max(z) } else { start.min(z) };
+        }
         // Planes, boxes and the triangle test each make a few roundings of numbers no larger than this.
         let padding = 32.0 * f32::EPSILON * (largest_coordinate + farthest.greatest());
-        let z = packet.axes[2];
-        let first = packet.o[2].lane(0);
-        let (low, high) = (bounds.min[z] - first - padding, bounds.max[z] - first + padding);
-        let ends = if packet.backwards {
-            [low.max(packet.end(base[2])), high.min(o[2].greatest())]
+        let z = first.axes[2];
+        let (low, high) = (bounds.min[z] - base[2] - padding, bounds.max[z] - base[2] + padding);
+        let ends = if first.backwards {
+            [low.max(end(packets, splat_base[2])), high.min(start.greatest() - base[2])]
         } else {
-            [low.max(o[2].least()), high.min(packet.end(base[2]))]
+            [low.max(start.least() - base[2]), high.min(end(packets, splat_base[2]))]
         };
-        let (near_x, far_x) = at_ends(packet, 0, o, ends);
-        let (near_y, far_y) = at_ends(packet, 1, o, ends);
-        let [least, most] = L::extremes([near_x, far_x, near_y, far_y]);
-        let span = |i: usize| most[i] - least[i];
-        let width = span(0).max(span(1)).max(span(2).max(span(3)));
         let per_length = if ends[0] < ends[1] { 1.0 / (ends[1] - ends[0]) } else { 0.0 };
-        let line = |near: f32, far: f32| {
-            let s = (far - near) * per_length;
-            Line { a: L::splat(near - s * ends[0]), s: L::splat(s), falls: s < 0.0 }
-        };
+        let mut of_packets =
+            [Sides { low: [Line { a: 0.0, s: 0.0 }; 2], high: [Line { a: 0.0, s: 0.0 }; 2] };
+                PACKETS];
+        let (mut least, mut most) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4]);
+        for (packet, sides) in packets.iter().zip(&mut of_packets) {
+            let (near_x, far_x) = at_ends(packet, 0, splat_base, ends);
+            let (near_y, far_y) = at_ends(packet, 1, splat_base, ends);
+            let extremes = L::extremes([near_x, far_x, near_y, far_y]);
+            *sides = Sides::new(extremes, ends[0], per_length);
+            for i in 0..4 {
+                least[i] = if extremes[0][i] < least[i] { extremes[0][i] } else { least[i] };
+                most[i] = if extremes[1][i] > most[i] { extremes[1][i] } else { most[i] };
+            }
+        }
         let widest = WIDEST * (bounds.max - bounds.min).max_element();
+        let span = |i: usize| most[i] - least[i] <= widest;
         // Rays that all end before they reach the scene meet no box.
-        let is_narrow = width <= widest || ends[0] > ends[1];
+        let is_narrow = span(0) && span(1) && span(2) && span(3) || ends[0] > ends[1];
         is_narrow.then(|| Self {
-            axes: packet.axes,
-            base,
+            axes: first.axes,
+            base: splat_base,
             padding: L::splat(padding),
-            low: [line(least[0], least[1]), line(least[2], least[3])],
-            high: [line(most[0], most[1]), line(most[2], most[3])],
             ends: [L::splat(ends[0]), L::splat(ends[1])],
-            backwards: packet.backwards,
-            flip: packet.octant() << 1 ^ (LANES as u32 - 1),
+            backwards: first.backwards,
+            flip: first.octant() << 1 ^ (LANES as u32 - 1),
+            sides: Sides::new([least, most], ends[0], per_length),
+            of_packets,
         })
     }
 
     /// Leaves out what lies behind the nearest hits of all rays.
     #[inline(always)]
-    pub fn shorten(&mut self, packet: &Packet<L>) {
-        let end = L::splat(packet.end(self.base[2]));
+    pub fn shorten(&mut self, packets: &[Packet<L>]) {
+        let end = L::splat(end(packets, self.base[2]));
         if self.backwards {
             self.ends[0] = self.ends[0].max(end);
         } else {
@@ -110,13 +149,13 @@ impl<L: Lanes> Frustum<L> {
         }
     }
 
-    /// Where the packet ends, as [`Frustum::enters`] says where boxes begin.
+    /// Where the beam ends, as [`Frustum::enters`] says where boxes begin.
     #[inline(always)]
     pub fn end(&self) -> f32 {
         if self.backwards { -self.ends[0].lane(0) } else { self.ends[1].lane(0) }
     }
 
-    /// Which children the packet may meet, and how far along z they begin, in lanes flipped by `flip`: far
+    /// Which children the beam may meet, and how far along z they begin, in lanes flipped by `flip`: far
     /// ones first.
     #[inline(always)]
     pub fn enters(&self, node: &Node) -> (Mask, L) {
@@ -127,15 +166,16 @@ impl<L: Lanes> Frustum<L> {
         (met, near)
     }
 
-    /// Which triangles of a leaf the packet may meet.
+    /// Which triangles of a leaf a packet may meet.
     #[inline(always)]
-    pub fn meets(&self, leaf: Leaf) -> Mask {
+    pub fn meets(&self, leaf: Leaf, packet: usize) -> Mask {
+        let sides = &self.of_packets[packet % PACKETS];
         let z = self.moved(leaf, 2);
         let is_before = z[0].max(z[1].max(z[2])).add(self.padding).lt(self.ends[0]);
         let is_behind = self.ends[1].lt(z[0].min(z[1].min(z[2])).sub(self.padding));
         !(is_before | is_behind)
-            & self.is_around(leaf, 0, z)
-            & self.is_around(leaf, 1, z)
+            & self.is_around(leaf, 0, z, sides)
+            & self.is_around(leaf, 1, z, sides)
             & leaf.lanes()
     }
 
@@ -152,7 +192,7 @@ impl<L: Lanes> Frustum<L> {
     #[inline(always)]
     fn overlaps(&self, node: &Node, i: usize, ends: [L; 2]) -> Mask {
         let [low, high] = self.extent(node, i);
-        self.low[i].least(ends).le(high) & low.le(self.high[i].greatest(ends))
+        self.sides.low[i].least(ends).le(high) & low.le(self.sides.high[i].greatest(ends))
     }
 
     /// One coordinate of all corners, seen from the base.
@@ -164,9 +204,9 @@ impl<L: Lanes> Frustum<L> {
 
     /// Which triangles are not beside the frustum in x or y.
     #[inline(always)]
-    fn is_around(&self, leaf: Leaf, i: usize, z: [L; 3]) -> Mask {
+    fn is_around(&self, leaf: Leaf, i: usize, z: [L; 3], sides: &Sides) -> Mask {
         let [a, b, c] = self.moved(leaf, i);
-        let (low, high) = (&self.low[i], &self.high[i]);
+        let (low, high) = (&sides.low[i], &sides.high[i]);
         // How far each corner is on the inner side of either line.
         let above = a.sub(low.at(z[0])).max(b.sub(low.at(z[1])).max(c.sub(low.at(z[2]))));
         let below = high.at(z[0]).sub(a).max(high.at(z[1]).sub(b).max(high.at(z[2]).sub(c)));
@@ -175,11 +215,22 @@ impl<L: Lanes> Frustum<L> {
     }
 }
 
-/// x (`i` = 0) or y (`i` = 1) of all rays at two z.
+/// x (`i` = 0) or y (`i` = 1) of all rays at two z, all seen from `base`.
 #[inline(always)]
-fn at_ends<L: Lanes>(packet: &Packet<L>, i: usize, o: [L; 3], ends: [f32; 2]) -> (L, L) {
+fn at_ends<L: Lanes>(packet: &Packet<L>, i: usize, base: [L; 3], ends: [f32; 2]) -> (L, L) {
+    let (o, z) = (packet.o[i].sub(base[i]), packet.o[2].sub(base[2]));
     let slope = L::splat(0.0).sub(packet.shear[i]);
-    let near = o[i].add(slope.mul(L::splat(ends[0]).sub(o[2])));
-    let far = o[i].add(slope.mul(L::splat(ends[1]).sub(o[2])));
+    let near = o.add(slope.mul(L::splat(ends[0]).sub(z)));
+    let far = o.add(slope.mul(L::splat(ends[1]).sub(z)));
     (near, far)
+}
+
+/// Where z ends for all rays, seen from `base`: the largest, or the least if they run backwards.
+#[inline(always)]
+fn end<L: Lanes>(packets: &[Packet<L>], base: L) -> f32 {
+    let mut end = packets[0].end(base);
+    for packet in &packets[1..] {
+        end = if packet.backwards { end.min(packet.end(base)) } else { end.max(packet.end(base)) };
+    }
+    if packets[0].backwards { end.least() } else { end.greatest() }
 }

@@ -7,6 +7,8 @@
 #![allow(unsafe_code)]
 
 mod aabb;
+mod batch;
+mod beam;
 mod build;
 mod bundle;
 mod collapse;
@@ -32,6 +34,7 @@ pub use path::Path;
 
 use crate::geometry::Ray;
 use stack::Stack;
+use walk::{Found, Start};
 
 impl Accel {
     /// The closest hit of each ray.
@@ -40,7 +43,7 @@ impl Accel {
     /// If `hits` is not as long as `rays`.
     pub fn intersect(&self, rays: &[Ray], hits: &mut [Hit]) {
         assert_eq!(rays.len(), hits.len());
-        Stack::with(|stack| self.closest_of_each(stack, rays, hits));
+        Stack::with(|stack| self.answer_hits(stack, rays, hits));
     }
 
     /// Whether each ray hits anything.
@@ -49,16 +52,34 @@ impl Accel {
     /// If `occluded` is not as long as `rays`.
     pub fn occluded(&self, rays: &[Ray], occluded: &mut [bool]) {
         assert_eq!(rays.len(), occluded.len());
-        Stack::with(|stack| self.any_of_each(stack, rays, occluded));
+        Stack::with(|stack| self.answer_occluded(stack, rays, occluded));
     }
 
     /// The closest hit of one ray. Of two at the same distance, the one of the first triangle counts.
     pub fn intersect1(&self, ray: &Ray) -> Hit {
-        Stack::with(|stack| self.closest_of_one(stack, ray))
+        self.hit(Stack::with(|stack| self.closest_of_one(stack, ray, Start::ROOT)))
     }
 
     /// Whether one ray hits anything.
     pub fn occluded1(&self, ray: &Ray) -> bool {
-        Stack::with(|stack| self.any_of_one(stack, ray))
+        Stack::with(|stack| self.any_of_one(stack, ray, Start::ROOT))
+    }
+
+    /// A hit as the outside sees it.
+    #[inline]
+    fn hit(&self, found: Found) -> Hit {
+        let Some((hit, number)) = found else { return Hit::MISS };
+        let (shape, triangle) = self.triangle_of(number);
+        Hit { t: hit.t, b: hit.b, shape, triangle }
+    }
+
+    /// The mesh of a triangle, and its number there.
+    #[inline]
+    fn triangle_of(&self, number: u32) -> (u32, u32) {
+        let shape = match &self.shapes[..] {
+            [_] => 0,
+            shapes => shapes.partition_point(|&first| first <= number) - 1,
+        };
+        (shape as u32, number - self.shapes[shape])
     }
 }

@@ -1,5 +1,7 @@
 //! [`Packet`]: sixteen rays that go much the same way, against triangles one by one.
 
+use glam::Vec3A;
+
 use super::lanes::{LANES, Lanes, Mask, splat3};
 use super::needle::Needle;
 use super::node::Node;
@@ -115,16 +117,16 @@ impl<'a, L: Lanes> Packet<'a, L> {
         needle.meets(leaf, self.t_max.spread(ray)).map_or(0, |met| met.lanes)
     }
 
-    /// Tests one triangle of a leaf; whether a ray meets it before what it met so far.
+    /// Tests one triangle of a leaf; which rays meet it before what they met so far.
     #[inline(always)]
-    pub fn meet(&mut self, leaf: Leaf, lane: u32, number: u32) -> bool {
+    pub fn meet(&mut self, leaf: Leaf, lane: u32, number: u32) -> Mask {
         let (a, b, c) =
             (self.corner(leaf, lane, 0), self.corner(leaf, lane, 1), self.corner(leaf, lane, 2));
         let (e0, e1, e2) = (edge(b, c), edge(c, a), edge(a, b));
         let zero = L::splat(0.0);
         let unsure = e0.eq(zero) | e1.eq(zero) | e2.eq(zero);
         let inside = (zero.le(e0.min(e1.min(e2))) | e0.max(e1.max(e2)).le(zero)) & !unsure;
-        let mut any = false;
+        let mut all = 0;
         if inside != 0 {
             let determinant = e0.add(e1).add(e2);
             let depth = e0.mul(a[2]).add(e1.mul(b[2])).add(e2.mul(c[2])).div(determinant);
@@ -135,13 +137,13 @@ impl<'a, L: Lanes> Packet<'a, L> {
                 // Of two at the same distance the first triangle counts.
                 met &= t.lt(self.t_max) | self.numbered_above(number, met & t.eq(self.t_max));
                 self.keep(met, t, [e0, e1, e2], determinant, number);
-                any = met != 0;
+                all = met;
             }
         }
         if unsure != 0 {
-            any |= self.meet_singly(leaf, lane, number, unsure);
+            all |= self.meet_singly(leaf, lane, number, unsure);
         }
-        any
+        all
     }
 
     /// A corner in the space of each ray, where it starts at the origin and runs along z.
@@ -177,42 +179,72 @@ impl<'a, L: Lanes> Packet<'a, L> {
     /// Tests rays for which an edge function is zero, which takes f64.
     #[cold]
     #[inline(never)]
-    fn meet_singly(&mut self, leaf: Leaf, lane: u32, number: u32, rays: Mask) -> bool {
-        let mut any = false;
-        for i in (0..LANES).filter(|i| rays >> i & 1 == 1) {
-            let (ray, t_max) = (&self.rays[i], self.t_max.to_array()[i]);
-            let hit = ShearedRay::new(ray).intersect_at(
+    fn meet_singly(&mut self, leaf: Leaf, lane: u32, number: u32, rays: Mask) -> Mask {
+        let mut all = 0;
+        for i in (0..Mask::BITS).filter(|i| rays >> i & 1 == 1) {
+            let ray = self.ray(i);
+            let hit = ShearedRay::new(&ray).intersect_at(
                 |corner, axis| leaf.coordinate(lane, corner, axis),
                 ray.t_min,
-                t_max,
+                ray.t_max,
             );
             let Some(hit) = hit else { continue };
-            let met = 1 << i;
-            if hit.t < t_max || self.numbered_above(number, met) != 0 {
-                // The weights are edge functions divided already.
-                self.keep(met, L::splat(hit.t), splat3(hit.b), L::splat(1.0), number);
-                any = true;
-            }
+            all |= Mask::from(self.keep_one(i, hit.t, hit.b, number)) << i;
         }
-        any
+        all
+    }
+
+    /// Whether another packet has the same axes and runs along z the same way.
+    #[inline(always)]
+    pub fn runs_like(&self, other: &Self) -> bool {
+        self.axes == other.axes && self.backwards == other.backwards
     }
 
     /// Which axes the first ray runs along backwards, x lowest.
     #[inline(always)]
     pub fn octant(&self) -> u32 {
-        glam::Vec3A::from(self.rays[0].d).is_negative_bitmask()
+        Vec3A::from(self.rays[0].d).is_negative_bitmask()
     }
 
-    /// Where z ends for all rays, seen from `base`: the largest, or the least if they run backwards.
+    /// Where z ends for each ray, seen from `base`.
     #[inline(always)]
-    pub fn end(&self, base: L) -> f32 {
-        let z = self.o[2].sub(base).add(self.t_max.mul(self.d[2]));
-        if self.backwards { z.least() } else { z.greatest() }
+    pub fn end(&self, base: L) -> L {
+        self.o[2].sub(base).add(self.t_max.mul(self.d[2]))
+    }
+
+    /// One ray, as far as it has met nothing.
+    #[inline(always)]
+    pub fn ray(&self, i: u32) -> Ray {
+        Ray { t_max: self.t_max.lane(i), ..self.rays[i as usize % LANES] }
+    }
+
+    /// Keeps what one ray met, if it is before what it met so far; whether it is.
+    #[inline(always)]
+    pub fn keep_one(&mut self, i: u32, t: f32, b: [f32; 3], number: u32) -> bool {
+        let is_before = t < self.t_max.lane(i) || self.numbered_above(number, 1 << i) != 0;
+        if is_before {
+            // The weights are edge functions divided already.
+            self.keep(1 << i, L::splat(t), splat3(b), L::splat(1.0), number);
+        }
+        is_before
+    }
+
+    /// Lets rays end that have met anything, so that they meet nothing more.
+    #[inline(always)]
+    pub fn end_met(&mut self, rays: Mask) {
+        self.t_max = self.t_max.or(rays, L::splat(f32::NEG_INFINITY));
+    }
+
+    /// Which rays have met something.
+    #[inline(always)]
+    pub fn met(&self) -> Mask {
+        let numbers = self.number.to_array();
+        (0..LANES).fold(0, |mask, i| mask | Mask::from(numbers[i].to_bits() != NONE) << i)
     }
 
     /// What the rays hit.
     #[inline(always)]
-    pub fn finish(&self, accel: &Accel, hits: &mut [Hit; LANES]) {
+    pub fn hits(&self, accel: &Accel, hits: &mut [Hit; LANES]) {
         let [e0, e1, e2] = self.edges;
         let (e0, e1) = (e0.div(self.determinant), e1.div(self.determinant));
         let b = [e0.to_array(), e1.to_array(), e2.div(self.determinant).to_array()];
@@ -225,7 +257,7 @@ impl<'a, L: Lanes> Packet<'a, L> {
         }
         if accel.shapes.len() > 1 {
             for hit in hits.iter_mut().filter(|hit| hit.is_hit()) {
-                (hit.shape, hit.triangle) = accel.outside(hit.triangle);
+                (hit.shape, hit.triangle) = accel.triangle_of(hit.triangle);
             }
         }
     }

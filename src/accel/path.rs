@@ -2,8 +2,9 @@
 
 #[cfg(target_arch = "x86_64")]
 use super::lanes::Avx512;
-use super::lanes::{LANES, Portable};
+use super::lanes::Portable;
 use super::stack::Stack;
+use super::walk::{Found, Start, Unsure};
 use super::{Accel, Hit};
 use crate::geometry::Ray;
 
@@ -83,28 +84,29 @@ macro_rules! dispatch {
 }
 
 impl Accel {
-    dispatch!(closest_of_each(accel, stack, rays: &[Ray], hits: &mut [Hit]) -> (), <L> {
-        let (packets, rest) = rays.as_chunks::<LANES>();
-        let (hits_of_packets, hits_of_rest) = hits.as_chunks_mut::<LANES>();
-        for (rays, hits) in packets.iter().zip(hits_of_packets) {
-            if !accel.closest_of_packet::<L>(stack, rays, hits) {
-                accel.closest_singly::<L>(stack, rays, hits);
-            }
-        }
-        accel.closest_singly::<L>(stack, rest, hits_of_rest);
+    dispatch!(answer_hits(accel, stack, rays: &[Ray], hits: &mut [Hit]) -> (), <L> {
+        accel.answer_batch::<L, Hit>(stack, rays, hits);
     });
-    dispatch!(any_of_each(accel, stack, rays: &[Ray], occluded: &mut [bool]) -> (), <L> {
-        for (ray, occluded) in rays.iter().zip(occluded) {
-            *occluded = accel.any::<L>(stack, ray);
+    dispatch!(answer_occluded(accel, stack, rays: &[Ray], occluded: &mut [bool]) -> (), <L> {
+        accel.answer_batch::<L, bool>(stack, rays, occluded);
+    });
+    dispatch!(closest_of_one(accel, stack, ray: &Ray, start: Start) -> Found, <L> {
+        match accel.find::<L, false>(stack, ray, start) {
+            Ok(found) => found,
+            Err(Unsure) => accel.surely_closest(stack, ray, start),
         }
     });
-    dispatch!(closest_of_one(accel, stack, ray: &Ray) -> Hit, <L> accel.closest::<L>(stack, ray));
-    // Apart from the rest, since it hardly ever runs.
-    dispatch!(surely_closest_of_one(accel, stack, ray: &Ray) -> Hit, <L> {
-        accel.find::<L, true>(stack, ray).unwrap_or(Hit::MISS)
+    dispatch!(any_of_one(accel, stack, ray: &Ray, start: Start) -> bool, <L> {
+        match accel.find_any::<L, false>(stack, ray, start) {
+            Ok(found) => found,
+            Err(Unsure) => accel.surely_any(stack, ray, start),
+        }
     });
-    dispatch!(surely_any_of_one(accel, stack, ray: &Ray) -> bool, <L> {
-        accel.find_any::<L, true>(stack, ray).unwrap_or(false)
+    // Apart from the rest, since they hardly ever run.
+    dispatch!(surely_closest(accel, stack, ray: &Ray, start: Start) -> Found, <L> {
+        accel.find::<L, true>(stack, ray, start).unwrap_or(None)
     });
-    dispatch!(any_of_one(accel, stack, ray: &Ray) -> bool, <L> accel.any::<L>(stack, ray));
+    dispatch!(surely_any(accel, stack, ray: &Ray, start: Start) -> bool, <L> {
+        accel.find_any::<L, true>(stack, ray, start).unwrap_or(false)
+    });
 }

@@ -30,10 +30,16 @@ impl Stack {
         OF_THREAD.with_borrow_mut(act)
     }
 
-    /// The child at a place, and where the ray enters it.
+    /// The last child of those above `bottom` that begins before `end`.
     #[inline(always)]
-    pub fn get(&self, place: usize) -> (u32, f32) {
-        (self.children[place], self.enters[place])
+    pub fn pop(&self, waiting: &mut usize, bottom: usize, end: f32) -> Option<u32> {
+        while *waiting > bottom {
+            *waiting -= 1;
+            if self.enters[*waiting] <= end {
+                return Some(self.children[*waiting]);
+            }
+        }
+        None
     }
 
     /// Where the next children go, all lanes of them.

@@ -1,18 +1,13 @@
 //! How one ray walks the tree.
 
-use super::frustum::Frustum;
+use super::Accel;
 use super::lanes::{LANES, Lanes, Mask};
 use super::needle::{Needle, hit};
 use super::node::Child;
-use super::packet::Packet;
 use super::slabs::Slabs;
 use super::stack::Stack;
-use super::{Accel, Hit};
 use crate::geometry::Ray;
-use crate::shape::ShearedRay;
-
-/// So many rays at a leaf are few.
-const FEW: u32 = 4;
+use crate::shape::{ShearedRay, TriangleHit};
 
 /// A triangle in a leaf.
 #[derive(Clone, Copy)]
@@ -23,53 +18,45 @@ struct Place {
     number: u32,
 }
 
+/// What a ray hit, with the number of the triangle.
+pub type Found = Option<(TriangleHit, u32)>;
+
+/// A triangle was met that only the test of one triangle can tell: an edge function is zero, or rounding may
+/// have made the hit up. Such rays are rare, and walk once more.
+pub struct Unsure;
+
+/// Where a walk begins: at the root, or for rays that leave a beam further down.
+#[derive(Clone, Copy)]
+pub struct Start {
+    pub node: u32,
+    /// How many children wait on the stack already, for others.
+    pub waiting: usize,
+}
+
+impl Start {
+    pub const ROOT: Self = Self { node: 0, waiting: 0 };
+}
+
 impl Accel {
-    /// The closest hit of each ray.
-    #[inline(always)]
-    pub(super) fn closest_singly<L: Lanes>(
-        &self,
-        stack: &mut Stack,
-        rays: &[Ray],
-        hits: &mut [Hit],
-    ) {
-        for (ray, hit) in rays.iter().zip(hits) {
-            *hit = self.closest::<L>(stack, ray);
-        }
-    }
-
-    /// The closest hit of one ray.
-    #[inline(always)]
-    pub(super) fn closest<L: Lanes>(&self, stack: &mut Stack, ray: &Ray) -> Hit {
-        match self.find::<L, false>(stack, ray) {
-            Ok(hit) => hit,
-            Err(Unsure) => self.surely_closest(stack, ray),
-        }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn surely_closest(&self, stack: &mut Stack, ray: &Ray) -> Hit {
-        self.surely_closest_of_one(stack, ray)
-    }
-
-    /// The closest hit. The bound on the error of t is asked of each triangle if `SURE`, else only of the
-    /// nearest in the end, which nearly always passes.
+    /// The closest hit below a node. The bound on the error of t is asked of each triangle if `SURE`, else
+    /// only of the nearest in the end, which nearly always passes.
     #[inline(always)]
     pub(super) fn find<L: Lanes, const SURE: bool>(
         &self,
         stack: &mut Stack,
         ray: &Ray,
-    ) -> Result<Hit, Unsure> {
+        start: Start,
+    ) -> Result<Found, Unsure> {
         let sheared = ShearedRay::new(ray);
         if self.nodes.is_empty() || !is_sound(ray, &sheared) {
-            return Ok(Hit::MISS);
+            return Ok(None);
         }
         let needle = Needle::<L>::new(&sheared, ray.t_min);
         let mut slabs = Slabs::<L>::new(ray, self.largest_coordinate);
         let mut t_max = ray.t_max;
         let mut nearest: Option<Place> = None;
-        let mut waiting = 0;
-        let mut node = &self.nodes[0];
+        let mut waiting = start.waiting;
+        let mut node = &self.nodes[start.node as usize];
         'nodes: loop {
             let (lanes, enters) = slabs.enters(node);
             let mut child;
@@ -79,7 +66,7 @@ impl Accel {
                 child = node.children[(lane ^ slabs.flip) as usize % LANES];
                 let others = lanes ^ 1 << lane;
                 waiting = enters.push(stack, waiting, others, &node.children, slabs.flip);
-            } else if let Some(next) = pop(stack, &mut waiting, t_max) {
+            } else if let Some(next) = stack.pop(&mut waiting, start.waiting, t_max) {
                 child = next;
             } else {
                 break;
@@ -116,104 +103,26 @@ impl Accel {
                         }
                     }
                 }
-                match pop(stack, &mut waiting, t_max) {
+                match stack.pop(&mut waiting, start.waiting, t_max) {
                     Some(next) => child = next,
                     None => break 'nodes,
                 }
             }
         }
-        let Some(place) = nearest else { return Ok(Hit::MISS) };
+        let Some(place) = nearest else { return Ok(None) };
         let leaf = self.triangles.leaf(place.first, place.count);
         let hit = hit(&sheared, leaf, place.lane, ray.t_min, ray.t_max).ok_or(Unsure)?;
-        let (shape, triangle) = self.outside(place.number);
-        Ok(Hit { t: hit.t, b: hit.b, shape, triangle })
+        Ok(Some((hit, place.number)))
     }
 
-    /// The closest hits of sixteen rays; false if they have too little in common to be traced together.
-    #[inline(always)]
-    pub(super) fn closest_of_packet<L: Lanes>(
-        &self,
-        stack: &mut Stack,
-        rays: &[Ray; LANES],
-        hits: &mut [Hit; LANES],
-    ) -> bool {
-        if self.nodes.is_empty() {
-            return false;
-        }
-        let Some(mut packet) = Packet::<L>::new(rays) else { return false };
-        let frustum = Frustum::new(&packet, &self.bounds, self.largest_coordinate);
-        let Some(mut frustum) = frustum else { return false };
-        let mut waiting = 0;
-        let mut place = 0;
-        'nodes: loop {
-            let (met, near) = frustum.enters(&self.nodes[place as usize]);
-            let slots = place * LANES as u32;
-            waiting = near.push_slots(stack, waiting, met, slots, frustum.flip);
-            while let Some(slot) = pop(stack, &mut waiting, frustum.end()) {
-                let (node, slot) = (&self.nodes[slot as usize / LANES], slot as usize % LANES);
-                let (first, count) = match Child::new(node.children[slot]) {
-                    Child::Node(number) => {
-                        place = number;
-                        continue 'nodes;
-                    }
-                    Child::Leaf { first, count } => (first, count),
-                };
-                let leaf = self.triangles.leaf(first, count);
-                let mut rays = packet.enters(node, slot, frustum.padding);
-                let mut any = false;
-                if rays.count_ones() <= FEW {
-                    // Few rays: each against all triangles at once.
-                    let mut seen = 0;
-                    while rays != 0 {
-                        let mut met = packet.meets(leaf, rays.trailing_zeros()) & !seen;
-                        rays &= rays - 1;
-                        seen |= met;
-                        while met != 0 {
-                            let lane = met.trailing_zeros();
-                            met &= met - 1;
-                            any |= packet.meet(leaf, lane, self.triangles.number(first + lane));
-                        }
-                    }
-                } else {
-                    // Many rays: all at once against each triangle.
-                    let mut lanes = frustum.meets(leaf);
-                    while lanes != 0 {
-                        let lane = lanes.trailing_zeros();
-                        lanes &= lanes - 1;
-                        any |= packet.meet(leaf, lane, self.triangles.number(first + lane));
-                    }
-                }
-                if any {
-                    frustum.shorten(&packet);
-                }
-            }
-            break;
-        }
-        packet.finish(self, hits);
-        true
-    }
-
-    /// Whether one ray hits anything.
-    #[inline(always)]
-    pub(super) fn any<L: Lanes>(&self, stack: &mut Stack, ray: &Ray) -> bool {
-        match self.find_any::<L, false>(stack, ray) {
-            Ok(found) => found,
-            Err(Unsure) => self.surely_any(stack, ray),
-        }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn surely_any(&self, stack: &mut Stack, ray: &Ray) -> bool {
-        self.surely_any_of_one(stack, ray)
-    }
-
-    /// Whether the ray hits anything. If `SURE`, all triangles that it may hit are asked, else the first.
+    /// Whether the ray hits anything below a node. If `SURE`, all triangles that it may hit are asked, else
+    /// the first.
     #[inline(always)]
     pub(super) fn find_any<L: Lanes, const SURE: bool>(
         &self,
         stack: &mut Stack,
         ray: &Ray,
+        start: Start,
     ) -> Result<bool, Unsure> {
         let sheared = ShearedRay::new(ray);
         if self.nodes.is_empty() || !is_sound(ray, &sheared) {
@@ -221,10 +130,9 @@ impl Accel {
         }
         let needle = Needle::<L>::new(&sheared, ray.t_min);
         let slabs = Slabs::<L>::new(ray, self.largest_coordinate);
-        let mut waiting = 0;
-        let mut node = &self.nodes[0];
-        let found;
-        'nodes: loop {
+        let mut waiting = start.waiting;
+        let mut node = &self.nodes[start.node as usize];
+        let (leaf, lane) = 'nodes: loop {
             let lanes = slabs.meets(node);
             let mut child;
             if lanes != 0 {
@@ -232,7 +140,7 @@ impl Accel {
                 child = node.children[lane as usize % LANES];
                 let others = lanes & (lanes - 1);
                 waiting = L::splat(0.0).push(stack, waiting, others, &node.children, 0);
-            } else if let Some(next) = pop(stack, &mut waiting, f32::INFINITY) {
+            } else if let Some(next) = stack.pop(&mut waiting, start.waiting, f32::INFINITY) {
                 child = next;
             } else {
                 return Ok(false);
@@ -249,8 +157,7 @@ impl Accel {
                 if let Some(met) = needle.meets(leaf, L::splat(ray.t_max)) {
                     let mut lanes = met.lanes;
                     if !SURE && lanes != 0 {
-                        found = (leaf, lanes.trailing_zeros());
-                        break 'nodes;
+                        break 'nodes (leaf, lanes.trailing_zeros());
                     }
                     while lanes != 0 {
                         let lane = lanes.trailing_zeros();
@@ -260,41 +167,14 @@ impl Accel {
                         lanes &= lanes - 1;
                     }
                 }
-                match pop(stack, &mut waiting, f32::INFINITY) {
+                match stack.pop(&mut waiting, start.waiting, f32::INFINITY) {
                     Some(next) => child = next,
                     None => return Ok(false),
                 }
             }
-        }
-        let (leaf, lane) = found;
+        };
         let hit = hit(&sheared, leaf, lane, ray.t_min, ray.t_max);
         hit.map(|_| true).ok_or(Unsure)
-    }
-
-    /// The mesh of a triangle, and its number there.
-    #[inline(always)]
-    pub(super) fn outside(&self, number: u32) -> (u32, u32) {
-        let shape = match &self.shapes[..] {
-            [_] => 0,
-            shapes => shapes.partition_point(|&first| first <= number) - 1,
-        };
-        (shape as u32, number - self.shapes[shape])
-    }
-}
-
-/// A triangle was met that only the test of one triangle can tell: an edge function is zero, or rounding may
-/// have made the hit up. Such rays are rare, and walk once more.
-pub(super) struct Unsure;
-
-/// The next child that the ray enters before `t_max`.
-#[inline(always)]
-fn pop(stack: &Stack, waiting: &mut usize, t_max: f32) -> Option<u32> {
-    loop {
-        *waiting = waiting.checked_sub(1)?;
-        let (child, enter) = stack.get(*waiting);
-        if enter <= t_max {
-            return Some(child);
-        }
     }
 }
 

@@ -1,0 +1,118 @@
+//! Batches of rays, cut into beams where the rays have something in common.
+
+use arrayvec::ArrayVec;
+
+use super::frustum::PACKETS;
+use super::lanes::{LANES, Lanes};
+use super::packet::Packet;
+use super::stack::Stack;
+use super::walk::Start;
+use super::{Accel, Hit};
+use crate::geometry::Ray;
+
+/// What a batch is asked for.
+pub trait Answer: Sized {
+    /// Whether any hit of a ray answers for it, not only the closest.
+    const ANY: bool;
+    /// The answers of a packet that was traced.
+    fn of_packet<L: Lanes>(accel: &Accel, packet: &Packet<L>, answers: &mut [Self; LANES]);
+    /// The answer of a ray by itself.
+    fn of_one(accel: &Accel, stack: &mut Stack, ray: &Ray) -> Self;
+}
+
+impl Answer for Hit {
+    const ANY: bool = false;
+
+    #[inline(always)]
+    fn of_packet<L: Lanes>(accel: &Accel, packet: &Packet<L>, answers: &mut [Self; LANES]) {
+        packet.hits(accel, answers);
+    }
+
+    #[inline(always)]
+    fn of_one(accel: &Accel, stack: &mut Stack, ray: &Ray) -> Self {
+        accel.hit(accel.closest_of_one(stack, ray, Start::ROOT))
+    }
+}
+
+impl Answer for bool {
+    const ANY: bool = true;
+
+    #[inline(always)]
+    fn of_packet<L: Lanes>(_: &Accel, packet: &Packet<L>, answers: &mut [Self; LANES]) {
+        let met = packet.met();
+        for (i, answer) in answers.iter_mut().enumerate() {
+            *answer = met >> i & 1 == 1;
+        }
+    }
+
+    #[inline(always)]
+    fn of_one(accel: &Accel, stack: &mut Stack, ray: &Ray) -> Self {
+        accel.any_of_one(stack, ray, Start::ROOT)
+    }
+}
+
+impl Accel {
+    /// The answer of each ray.
+    #[inline(always)]
+    pub(super) fn answer_batch<L: Lanes, A: Answer>(
+        &self,
+        stack: &mut Stack,
+        rays: &[Ray],
+        answers: &mut [A],
+    ) {
+        let at_once = PACKETS * LANES;
+        for (rays, answers) in rays.chunks(at_once).zip(answers.chunks_mut(at_once)) {
+            self.answer_chunk::<L, A>(stack, rays, answers);
+        }
+    }
+
+    /// The answers of as many rays as make a beam: together if they have enough in common, else packet by
+    /// packet, else one by one.
+    #[inline(always)]
+    fn answer_chunk<L: Lanes, A: Answer>(
+        &self,
+        stack: &mut Stack,
+        rays: &[Ray],
+        answers: &mut [A],
+    ) {
+        let (groups, rest) = rays.as_chunks::<LANES>();
+        let (answers, answers_of_rest) = answers.as_chunks_mut::<LANES>();
+        self.answer_singly(stack, rest, answers_of_rest);
+        let mut packets = ArrayVec::<Packet<L>, PACKETS>::new();
+        let mut places = ArrayVec::<usize, PACKETS>::new();
+        for (place, rays) in groups.iter().enumerate() {
+            match Packet::new(rays) {
+                Some(packet) if !self.nodes.is_empty() => {
+                    packets.push(packet);
+                    places.push(place);
+                }
+                _ => self.answer_singly(stack, rays, &mut answers[place]),
+            }
+        }
+        let alike = packets.windows(2).all(|pair| pair[0].runs_like(&pair[1]));
+        let mut step = if alike { packets.len() } else { 1 };
+        let mut next = 0;
+        while next < packets.len() {
+            let beam = next..next + step;
+            if self.trace_beam(stack, &mut packets[beam.clone()], A::ANY) {
+                for i in beam {
+                    A::of_packet(self, &packets[i], &mut answers[places[i]]);
+                }
+                next += step;
+            } else if step > 1 {
+                step = 1;
+            } else {
+                let place = places[next];
+                self.answer_singly(stack, &groups[place], &mut answers[place]);
+                next += 1;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn answer_singly<A: Answer>(&self, stack: &mut Stack, rays: &[Ray], answers: &mut [A]) {
+        for (ray, answer) in rays.iter().zip(answers) {
+            *answer = A::of_one(self, stack, ray);
+        }
+    }
+}
