@@ -89,22 +89,21 @@ impl Accel {
                 _ => self.answer_singly(stack, rays, &mut answers[place]),
             }
         }
-        let alike = packets.windows(2).all(|pair| pair[0].runs_like(&pair[1]));
-        let mut step = if alike { packets.len() } else { 1 };
-        let mut next = 0;
-        while next < packets.len() {
-            let beam = next..next + step;
-            if self.trace_beam(stack, &mut packets[beam.clone()], A::ANY) {
-                for i in beam {
-                    A::of_packet(self, &packets[i], &mut answers[places[i]]);
+        let mut done = 0;
+        if let Ok(beam) = <&mut [_; PACKETS]>::try_from(&mut packets[..]) {
+            let alike = beam[1..].iter().all(|packet| packet.runs_like(&beam[0]));
+            if alike && self.trace_beam(stack, beam, A::ANY) {
+                done = PACKETS;
+                for (packet, answers) in beam.iter().zip(answers.iter_mut()) {
+                    A::of_packet(self, packet, answers);
                 }
-                next += step;
-            } else if step > 1 {
-                step = 1;
+            }
+        }
+        for (packet, place) in packets.iter_mut().zip(places).skip(done) {
+            if self.trace_beam(stack, std::array::from_mut(packet), A::ANY) {
+                A::of_packet(self, packet, &mut answers[place]);
             } else {
-                let place = places[next];
                 self.answer_singly(stack, &groups[place], &mut answers[place]);
-                next += 1;
             }
         }
     }

@@ -1,13 +1,18 @@
 //! How a beam of rays walks the tree: packets of sixteen rays inside one frustum.
 
 use super::Accel;
-use super::frustum::{Frustum, PACKETS};
+use super::frustum::Frustum;
 use super::lanes::{LANES, Lanes, Mask};
 use super::node::Child;
 use super::packet::Packet;
 use super::stack::Stack;
 use super::triangles::Leaf;
 use super::walk::Start;
+
+/// So many rays have to come to a leaf, on average, that it pays to trace packets together. Any hit is found
+/// sooner by rays on their own, so that those need more company.
+const BEAM_PER_LEAF: f32 = 2.0;
+const PACKET_PER_LEAF: f32 = 0.1;
 
 /// So few rays of a beam at a node walk on by themselves.
 const FEW_AT_NODE: u32 = 4;
@@ -21,22 +26,23 @@ impl Accel {
     ///
     /// The frustum says which boxes the beam meets, and then each ray whether it does: only so many walk on.
     #[inline(always)]
-    pub(super) fn trace_beam<L: Lanes>(
+    pub(super) fn trace_beam<L: Lanes, const N: usize>(
         &self,
         stack: &mut Stack,
-        packets: &mut [Packet<L>],
+        packets: &mut [Packet<L>; N],
         any_hit: bool,
     ) -> bool {
-        let Some(mut frustum) = Frustum::new(packets, &self.bounds, self.largest_coordinate) else {
-            return false;
-        };
+        let per_leaf = if N > 1 || any_hit { BEAM_PER_LEAF } else { PACKET_PER_LEAF };
+        let frustum =
+            Frustum::new(packets, &self.bounds, self.largest_coordinate, self.grain, per_leaf);
+        let Some(mut frustum) = frustum else { return false };
         let (mut waiting, mut place) = (0, 0);
         'nodes: loop {
             let (met, near) = frustum.enters(&self.nodes[place as usize]);
             waiting = near.push_slots(stack, waiting, met, place * LANES as u32, frustum.flip);
             while let Some(slot) = stack.pop(&mut waiting, 0, frustum.end()) {
                 let (node, slot) = (&self.nodes[slot as usize / LANES], slot as usize % LANES);
-                let (mut rays, mut count) = ([0; PACKETS], 0);
+                let (mut rays, mut count) = ([0; N], 0);
                 for (packet, rays) in packets.iter().zip(&mut rays) {
                     *rays = packet.enters(node, slot, frustum.padding);
                     count += rays.count_ones();

@@ -24,6 +24,8 @@ pub struct Accel {
     pub(super) shapes: Vec<u32>,
     pub(super) bounds: Aabb,
     pub(super) largest_coordinate: f32,
+    /// The mean area of a face of the boxes of leaves.
+    pub(super) grain: f32,
     /// The longest way from the root to a leaf, in nodes: how much a walk may have to remember.
     pub(super) depth: usize,
     pub(super) path: Path,
@@ -56,6 +58,7 @@ impl Accel {
             shapes,
             bounds: Aabb::EMPTY,
             largest_coordinate: 0.0,
+            grain: 0.0,
             depth: 0,
             path: Path::available().pop().unwrap_or(Path::Portable),
         };
@@ -65,6 +68,7 @@ impl Accel {
         accel.triangles.finish();
         accel.bounds = accel.nodes.first().map_or(Aabb::EMPTY, Node::bounds);
         accel.largest_coordinate = accel.bounds.largest_coordinate();
+        accel.grain = grain(&accel.nodes);
         accel
     }
 
@@ -170,4 +174,12 @@ fn collect(meshes: &[TriangleMesh]) -> Vec<Triangle> {
         }
     });
     triangles
+}
+
+/// The mean area of a face of the boxes of leaves; 0 without any.
+fn grain(nodes: &[Node]) -> f32 {
+    let areas = nodes.iter().flat_map(Node::leaf_areas);
+    let (sum, count) =
+        areas.fold((0.0, 0.0), |(sum, count), area| (sum + f64::from(area), count + 1.0_f64));
+    (sum / (3.0 * count.max(1.0))) as f32
 }

@@ -79,14 +79,17 @@ impl Sides {
     }
 }
 
-/// Beams that are wider than this part of the scene have little in common.
-const WIDEST: f32 = 1.0 / 16.0;
-
 impl<L: Lanes> Frustum<L> {
-    /// The frustum of at least one packet in a scene, if it is narrow. All packets have the same axes and
-    /// run the same way.
+    /// The frustum of packets in a scene, if it is narrow: if `per_leaf` rays come to a leaf with faces as large
+    /// as `grain`. All packets have the same axes and run the same way.
     #[inline(always)]
-    pub fn new(packets: &[Packet<L>], bounds: &Aabb, largest_coordinate: f32) -> Option<Self> {
+    pub fn new<const N: usize>(
+        packets: &[Packet<L>; N],
+        bounds: &Aabb,
+        largest_coordinate: f32,
+        grain: f32,
+        per_leaf: f32,
+    ) -> Option<Self> {
         let first = &packets[0];
         let [x, y, z] = first.o;
         let base = [x.lane(0), y.lane(0), z.lane(0)];
@@ -122,10 +125,11 @@ impl<L: Lanes> Frustum<L> {
                 most[i] = if extremes[1][i] > most[i] { extremes[1][i] } else { most[i] };
             }
         }
-        let widest = WIDEST * (bounds.max - bounds.min).max_element();
-        let span = |i: usize| most[i] - least[i] <= widest;
+        let span = |i: usize| most[i] - least[i];
+        let area = span(0).max(span(1)) * span(2).max(span(3));
+        let rays = (N * LANES) as f32;
         // Rays that all end before they reach the scene meet no box.
-        let is_narrow = span(0) && span(1) && span(2) && span(3) || ends[0] > ends[1];
+        let is_narrow = area * per_leaf <= rays * grain || ends[0] > ends[1];
         is_narrow.then(|| Self {
             axes: first.axes,
             base: splat_base,
@@ -140,7 +144,7 @@ impl<L: Lanes> Frustum<L> {
 
     /// Leaves out what lies behind the nearest hits of all rays.
     #[inline(always)]
-    pub fn shorten(&mut self, packets: &[Packet<L>]) {
+    pub fn shorten<const N: usize>(&mut self, packets: &[Packet<L>; N]) {
         let end = L::splat(end(packets, self.base[2]));
         if self.backwards {
             self.ends[0] = self.ends[0].max(end);
@@ -227,7 +231,7 @@ fn at_ends<L: Lanes>(packet: &Packet<L>, i: usize, base: [L; 3], ends: [f32; 2])
 
 /// Where z ends for all rays, seen from `base`: the largest, or the least if they run backwards.
 #[inline(always)]
-fn end<L: Lanes>(packets: &[Packet<L>], base: L) -> f32 {
+fn end<L: Lanes, const N: usize>(packets: &[Packet<L>; N], base: L) -> f32 {
     let mut end = packets[0].end(base);
     for packet in &packets[1..] {
         end = if packet.backwards { end.min(packet.end(base)) } else { end.max(packet.end(base)) };

@@ -85,4 +85,17 @@ impl Node {
             |axis: usize| self.planes[3 + axis].iter().copied().fold(f32::NEG_INFINITY, f32::max);
         Aabb { min: [0, 1, 2].map(least).into(), max: [0, 1, 2].map(most).into() }
     }
+
+    /// Half the surface areas of the boxes of leaves.
+    pub fn leaf_areas(&self) -> impl Iterator<Item = f32> {
+        let is_leaf = |slot: &usize| {
+            let child = self.children[*slot];
+            child != Child::NOTHING && child & LEAF != 0
+        };
+        (0..LANES).filter(is_leaf).map(|slot| {
+            let [x, y, z] =
+                [0, 1, 2].map(|axis| self.planes[axis + 3][slot] - self.planes[axis][slot]);
+            x * y + y * z + z * x
+        })
+    }
 }

@@ -32,6 +32,9 @@ pub struct Packet<'a, L> {
     number: L,
 }
 
+/// Rays from farther away walk alone.
+const FARTHEST: f32 = 1e30;
+
 /// The number of no triangle.
 const NONE: u32 = u32::MAX;
 
@@ -53,8 +56,13 @@ impl<'a, L: Lanes> Packet<'a, L> {
         let (o, d) = ([o[x], o[y], o[z]], [d[x], d[y], d[z]]);
         let zero = L::splat(0.0);
         let forwards = zero.lt(d[2]);
-        let finite = d[2].abs().lt(L::splat(f32::INFINITY))
-            & (o[0].add(o[1]).add(o[2])).abs().lt(L::splat(f32::INFINITY));
+        // Numbers that a frustum can be made from: no sum or product of theirs is NaN.
+        let distance = o[0].abs().add(o[1].abs()).add(o[2].abs());
+        let finite = distance.lt(L::splat(FARTHEST))
+            & d[2].abs().lt(L::splat(f32::INFINITY))
+            & d[0].abs().le(d[2].abs())
+            & d[1].abs().le(d[2].abs())
+            & t_max.eq(t_max);
         if longest & finite != Mask::MAX || forwards != 0 && forwards != Mask::MAX {
             return None;
         }
