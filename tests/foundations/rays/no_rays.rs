@@ -7,7 +7,7 @@ use lobe::glam::Vec3;
 use super::answers::{Loop, assert_answers};
 use super::kinds;
 use crate::common::Rng;
-use crate::common::meshes::lumpy;
+use crate::common::meshes::{lumpy, soup};
 
 /// Zeros, infinities and NaN as origin, direction and range: the walk ends, and gives what a loop gives,
 /// which is never a hit at a distance that is none. Caught: a t of NaN taken for a hit; eight rays that all
@@ -61,6 +61,29 @@ fn directions_of_any_length() {
             let hit = accel.intersect1(&Ray::new(o, d * scale));
             assert_eq!(hit.triangle, reference.triangle, "trial {trial}, 2^{exponent}");
             assert!(!hit.is_hit() || hit.t == reference.t / scale, "trial {trial}, 2^{exponent}");
+        }
+    }
+}
+
+/// Long directions in small scenes and short ones in large scenes: t is right though it is as small as
+/// 1e-26 or as large as 1e30. Caught: z scaled to be t before it is multiplied with the edge functions.
+#[test]
+fn directions_of_any_length_in_scenes_of_any_size() {
+    for (trial, size) in [1e-8, 1e-4, 1.0, 1e4, 1e8, 1e12].into_iter().enumerate() {
+        let corners = [Vec3::new(-1.0, 0.0, -1.0), Vec3::new(1.0, 0.0, -1.0), Vec3::Z];
+        let accel = Accel::build(&[soup(&[corners.map(|corner| size * corner)])]);
+        for length in [1e-18, 1e-9, 1.0, 1e9, 1e18] {
+            let ray = Ray::new(0.75 * size * Vec3::Y, -length * Vec3::Y);
+            let expected = 0.75 * f64::from(size) / f64::from(length);
+            let hits = [accel.intersect1(&ray), {
+                let mut hits = [Hit::MISS; 16];
+                accel.intersect(&[ray; 16], &mut hits);
+                hits[15]
+            }];
+            for hit in hits {
+                let error = (f64::from(hit.t) / expected - 1.0).abs();
+                assert!(error < 1e-6, "trial {trial}, length {length}: {hit:?}, not {expected}");
+            }
         }
     }
 }
