@@ -182,6 +182,7 @@ impl Accel {
 /// every box would be.
 #[inline(always)]
 fn is_sound(ray: &Ray, sheared: &ShearedRay) -> bool {
-    let [x, y, z] = sheared.shear;
-    !(x + y + z).is_nan() && (ray.o.x + ray.o.y + ray.o.z).is_finite()
+    // What is not finite becomes NaN, which outlasts all that is added.
+    let o = ray.o.x + ray.o.y + ray.o.z;
+    !(o - o + sheared.shear[0] + sheared.shear[1]).is_nan()
 }

@@ -52,7 +52,8 @@ impl ShearedRay {
     #[inline]
     pub fn new(ray: &Ray) -> Self {
         let axes = Self::axes_of(ray);
-        let (d, o) = (ray.d.to_array(), ray.o.to_array());
+        // By reference, so that coordinates are read from where they are.
+        let (d, o): (&[f32; 3], &[f32; 3]) = (ray.d.as_ref(), ray.o.as_ref());
         let [x, y, z] = axes;
         let shear = Vec3A::new(-d[x], -d[y], 1.0) / d[z];
         Self { o: [o[x], o[y], o[z]], axes, shear: shear.to_array() }
