@@ -82,7 +82,7 @@ impl Accel {
         let mut places = ArrayVec::<usize, PACKETS>::new();
         for (place, rays) in groups.iter().enumerate() {
             match Packet::new(rays) {
-                Some(packet) if !self.nodes.is_empty() => {
+                Some(packet) if L::BEAMS && !self.nodes.is_empty() => {
                     packets.push(packet);
                     places.push(place);
                 }

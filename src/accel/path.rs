@@ -1,8 +1,8 @@
 //! [`Path`]: which instructions rays are traced with, and the way from the outside to them.
 
-#[cfg(target_arch = "x86_64")]
-use super::lanes::Avx512;
 use super::lanes::Portable;
+#[cfg(target_arch = "x86_64")]
+use super::lanes::{Avx2, Avx512};
 use super::stack::Stack;
 use super::walk::{Found, Start, Unsure};
 use super::{Accel, Hit};
@@ -63,7 +63,7 @@ macro_rules! dispatch {
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
             fn avx2(accel: &Accel, stack: &mut Stack, $($argument: $type),*) -> $result {
-                generic::<Portable>(accel, stack, $($argument),*)
+                generic::<Avx2>(accel, stack, $($argument),*)
             }
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx512f,avx512vl,avx512bw,avx512dq,avx2,bmi1,bmi2,lzcnt,popcnt")]

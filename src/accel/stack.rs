@@ -42,6 +42,12 @@ impl Stack {
         None
     }
 
+    /// Puts a child at a place.
+    #[inline(always)]
+    pub fn set(&mut self, place: usize, child: u32, enter: f32) {
+        (self.children[place], self.enters[place]) = (child, enter);
+    }
+
     /// Where the next children go, all lanes of them.
     #[inline(always)]
     pub fn room(&mut self, place: usize) -> (&mut [u32; LANES], &mut [f32; LANES]) {

@@ -30,6 +30,8 @@ impl From<__m512> for Avx512 {
 }
 
 impl Lanes for Avx512 {
+    const BEAMS: bool = true;
+
     instructions! {
         add(other) -> Self = _mm512_add_ps;
         sub(other) -> Self = _mm512_sub_ps;

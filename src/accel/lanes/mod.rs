@@ -4,9 +4,13 @@
 //! none is fused, so that every implementation gives the same bits as f32 does.
 
 #[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
 mod avx512;
 mod portable;
 
+#[cfg(target_arch = "x86_64")]
+pub use avx2::Avx2;
 #[cfg(target_arch = "x86_64")]
 pub use avx512::Avx512;
 pub use portable::Portable;
@@ -22,6 +26,9 @@ pub type Mask = u16;
 
 /// Sixteen f32.
 pub trait Lanes: Copy {
+    /// Whether vectors are wide enough for packets of rays to pay.
+    const BEAMS: bool;
+
     fn splat(x: f32) -> Self;
     fn load(x: &[f32; LANES]) -> Self;
     /// Sixteen numbers from `x` on.
@@ -54,7 +61,13 @@ pub trait Lanes: Copy {
     /// The largest of all; NaN may be left out.
     fn greatest(self) -> f32;
     /// The least and the largest lane of each of four vectors; NaN may be left out.
-    fn extremes(four: [Self; 4]) -> [[f32; 4]; 2];
+    #[inline(always)]
+    fn extremes([a, b, c, d]: [Self; 4]) -> [[f32; 4]; 2] {
+        [
+            [a.least(), b.least(), c.least(), d.least()],
+            [a.greatest(), b.greatest(), c.greatest(), d.greatest()],
+        ]
+    }
     /// The number in a lane.
     fn lane(self, lane: u32) -> f32;
     /// The number in a lane in all lanes.
@@ -64,6 +77,7 @@ pub trait Lanes: Copy {
     /// Puts the children in the lanes of `mask`, after lanes were flipped as by [`Lanes::flipped`], on the
     /// stack, where `len` wait already, the lowest lane lowest. `self` says where the ray enters them, and
     /// is flipped already. How many wait then.
+    #[inline(always)]
     fn push(
         self,
         stack: &mut Stack,
@@ -71,10 +85,34 @@ pub trait Lanes: Copy {
         mask: Mask,
         children: &[u32; LANES],
         flip: u32,
-    ) -> usize;
-
+    ) -> usize {
+        push_each(stack, len, mask, self.to_array(), |lane| {
+            children[(lane ^ flip) as usize % LANES]
+        })
+    }
     /// Puts the slots of a node on the stack as [`Lanes::push`] does children: slot i as `first` + i.
-    fn push_slots(self, stack: &mut Stack, len: usize, mask: Mask, first: u32, flip: u32) -> usize;
+    #[inline(always)]
+    fn push_slots(self, stack: &mut Stack, len: usize, mask: Mask, first: u32, flip: u32) -> usize {
+        push_each(stack, len, mask, self.to_array(), |lane| first + (lane ^ flip))
+    }
+}
+
+/// Puts what stands for the lanes of `mask` on the stack.
+#[inline(always)]
+fn push_each(
+    stack: &mut Stack,
+    mut len: usize,
+    mut mask: Mask,
+    enters: [f32; LANES],
+    child: impl Fn(u32) -> u32,
+) -> usize {
+    while mask != 0 {
+        let lane = mask.trailing_zeros();
+        stack.set(len, child(lane), enters[lane as usize % LANES]);
+        len += 1;
+        mask &= mask - 1;
+    }
+    len
 }
 
 /// Each of three numbers in all lanes. Written out, because `map` is not always inlined.

@@ -3,7 +3,6 @@
 use std::array::from_fn;
 
 use super::{LANES, Lanes, Mask};
-use crate::accel::stack::Stack;
 use crate::geometry::Ray;
 
 #[derive(Clone, Copy)]
@@ -22,6 +21,8 @@ impl Portable {
 }
 
 impl Lanes for Portable {
+    const BEAMS: bool = false;
+
     #[inline(always)]
     fn splat(x: f32) -> Self {
         Self([x; LANES])
@@ -56,10 +57,6 @@ impl Lanes for Portable {
     #[inline(always)]
     fn greatest(self) -> f32 {
         self.0.into_iter().fold(f32::NEG_INFINITY, f32::max)
-    }
-    #[inline(always)]
-    fn extremes(four: [Self; 4]) -> [[f32; 4]; 2] {
-        [four.map(Self::least), four.map(Self::greatest)]
     }
     #[inline(always)]
     fn to_array(self) -> [f32; LANES] {
@@ -120,30 +117,5 @@ impl Lanes for Portable {
     #[inline(always)]
     fn flipped(self, flip: u32) -> Self {
         Self(from_fn(|i| self.0[(i ^ flip as usize) % LANES]))
-    }
-    #[inline(always)]
-    fn push(
-        self,
-        stack: &mut Stack,
-        len: usize,
-        mut mask: Mask,
-        children: &[u32; LANES],
-        flip: u32,
-    ) -> usize {
-        let (waiting, enters) = stack.room(len);
-        let mut count = 0;
-        while mask != 0 {
-            let lane = mask.trailing_zeros();
-            waiting[count % LANES] = children[(lane ^ flip) as usize % LANES];
-            enters[count % LANES] = self.lane(lane);
-            mask &= mask - 1;
-            count += 1;
-        }
-        len + count
-    }
-
-    #[inline(always)]
-    fn push_slots(self, stack: &mut Stack, len: usize, mask: Mask, first: u32, flip: u32) -> usize {
-        self.push(stack, len, mask, &from_fn(|i| first + i as u32), flip)
     }
 }

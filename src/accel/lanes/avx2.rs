@@ -1,0 +1,194 @@
+//! [`Lanes`] in the instructions of AVX2.
+
+use std::arch::x86_64::*;
+
+use super::{LANES, Lanes, Mask};
+use crate::geometry::Ray;
+
+/// Sixteen f32 in two registers. Only code that [`super::super::path::Path::Avx2`] leads to may touch one:
+/// each `unsafe` below is the use of an instruction that such a processor has.
+#[derive(Clone, Copy)]
+pub struct Avx2(__m256, __m256);
+
+/// Defines functions of two vectors, each one instruction for either half.
+macro_rules! instructions {
+    ($($name:ident = $instruction:ident;)*) => {$(
+        #[inline(always)]
+        fn $name(self, other: Self) -> Self {
+            // SAFETY: the processor has AVX2, by the promise of the type.
+            unsafe { Self($instruction(self.0, other.0), $instruction(self.1, other.1)) }
+        }
+    )*};
+}
+
+/// Defines comparisons.
+macro_rules! comparisons {
+    ($($name:ident = $kind:ident;)*) => {$(
+        #[inline(always)]
+        fn $name(self, other: Self) -> Mask {
+            // SAFETY: as above.
+            unsafe {
+                let low = _mm256_movemask_ps(_mm256_cmp_ps::<$kind>(self.0, other.0));
+                let high = _mm256_movemask_ps(_mm256_cmp_ps::<$kind>(self.1, other.1));
+                (low | high << 8) as Mask
+            }
+        }
+    )*};
+}
+
+impl Lanes for Avx2 {
+    const BEAMS: bool = true;
+
+    instructions! {
+        add = _mm256_add_ps;
+        sub = _mm256_sub_ps;
+        mul = _mm256_mul_ps;
+        div = _mm256_div_ps;
+        min = _mm256_min_ps;
+        max = _mm256_max_ps;
+    }
+    comparisons! {
+        le = _CMP_LE_OQ;
+        lt = _CMP_LT_OQ;
+        eq = _CMP_EQ_OQ;
+    }
+    #[inline(always)]
+    fn splat(x: f32) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm256_set1_ps(x), _mm256_set1_ps(x)) }
+    }
+    #[inline(always)]
+    fn load(x: &[f32; LANES]) -> Self {
+        // SAFETY: the array has all lanes.
+        unsafe { Self::load_from(x.as_ptr()) }
+    }
+    #[inline(always)]
+    unsafe fn load_from(x: *const f32) -> Self {
+        // SAFETY: as above; the caller promises the numbers.
+        unsafe { Self(_mm256_loadu_ps(x), _mm256_loadu_ps(x.add(8))) }
+    }
+    #[inline(always)]
+    fn transposed(rays: &[Ray; LANES]) -> [Self; 8] {
+        const { assert!(size_of::<Ray>() == 8 * size_of::<f32>()) };
+        let (low, high) = (columns(&rays[..8]), columns(&rays[8..]));
+        let both = |i: usize| Self(low[i], high[i]);
+        [both(0), both(1), both(2), both(3), both(4), both(5), both(6), both(7)]
+    }
+    #[inline(always)]
+    fn to_array(self) -> [f32; LANES] {
+        let mut x = [0.0; LANES];
+        // SAFETY: as above; the array has room for all lanes.
+        unsafe {
+            _mm256_storeu_ps(x.as_mut_ptr(), self.0);
+            _mm256_storeu_ps(x.as_mut_ptr().add(8), self.1);
+        }
+        x
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        // SAFETY: as above.
+        unsafe {
+            let sign = _mm256_set1_ps(-0.0);
+            Self(_mm256_andnot_ps(sign, self.0), _mm256_andnot_ps(sign, self.1))
+        }
+    }
+    #[inline(always)]
+    fn or(self, mask: Mask, other: Self) -> Self {
+        // SAFETY: as above.
+        unsafe {
+            Self(
+                _mm256_blendv_ps(self.0, other.0, lanes_of(mask)),
+                _mm256_blendv_ps(self.1, other.1, lanes_of(mask >> 8)),
+            )
+        }
+    }
+    #[inline(always)]
+    fn least(self) -> f32 {
+        // SAFETY: as above.
+        unsafe {
+            let eight = _mm256_min_ps(self.0, self.1);
+            let four = _mm_min_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps::<1>(eight));
+            let two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+            _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)))
+        }
+    }
+    #[inline(always)]
+    fn greatest(self) -> f32 {
+        // SAFETY: as above.
+        unsafe {
+            let eight = _mm256_max_ps(self.0, self.1);
+            let four = _mm_max_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps::<1>(eight));
+            let two = _mm_max_ps(four, _mm_movehl_ps(four, four));
+            _mm_cvtss_f32(_mm_max_ss(two, _mm_movehdup_ps(two)))
+        }
+    }
+    #[inline(always)]
+    fn lane(self, lane: u32) -> f32 {
+        // SAFETY: as above.
+        unsafe { _mm256_cvtss_f32(self.spread(lane).0) }
+    }
+    #[inline(always)]
+    fn spread(self, lane: u32) -> Self {
+        let half = if lane < 8 { self.0 } else { self.1 };
+        // SAFETY: as above.
+        unsafe {
+            let all = _mm256_permutevar8x32_ps(half, _mm256_set1_epi32(lane as i32));
+            Self(all, all)
+        }
+    }
+    #[inline(always)]
+    fn flipped(self, flip: u32) -> Self {
+        let (low, high) = if flip & 8 == 0 { (self.0, self.1) } else { (self.1, self.0) };
+        // SAFETY: as above.
+        unsafe {
+            let lanes = _mm256_set_epi32(7, 6, 5, 4, 3, 2, 1, 0);
+            let flips = _mm256_xor_si256(lanes, _mm256_set1_epi32(flip as i32 & 7));
+            Self(_mm256_permutevar8x32_ps(low, flips), _mm256_permutevar8x32_ps(high, flips))
+        }
+    }
+}
+
+/// All bits of the lanes of the lower half of a mask.
+#[inline(always)]
+fn lanes_of(mask: Mask) -> __m256 {
+    // SAFETY: called from above.
+    unsafe {
+        let bits = _mm256_set_epi32(128, 64, 32, 16, 8, 4, 2, 1);
+        let chosen = _mm256_and_si256(_mm256_set1_epi32(i32::from(mask)), bits);
+        _mm256_castsi256_ps(_mm256_cmpeq_epi32(chosen, bits))
+    }
+}
+
+/// Origin, t_min, direction and t_max of eight rays.
+#[inline(always)]
+fn columns(rays: &[Ray]) -> [__m256; 8] {
+    assert_eq!(rays.len(), 8);
+    let numbers: *const f32 = rays.as_ptr().cast();
+    // SAFETY: called from above; a ray is eight f32 in order (`repr(C)`), and there are eight.
+    unsafe {
+        // Origin and t_min of a ray beside those of the fourth after it; and likewise of what follows.
+        let beside = |i: usize| {
+            let low = _mm256_castps128_ps256(_mm_loadu_ps(numbers.add(i)));
+            _mm256_insertf128_ps::<1>(low, _mm_loadu_ps(numbers.add(i + 32)))
+        };
+        let [ox, oy, oz, t_min] = four(beside(0), beside(8), beside(16), beside(24));
+        let [dx, dy, dz, t_max] = four(beside(4), beside(12), beside(20), beside(28));
+        [ox, oy, oz, t_min, dx, dy, dz, t_max]
+    }
+}
+
+/// The columns of the four-by-four matrices in each half of four rows.
+#[inline(always)]
+fn four(a: __m256, b: __m256, c: __m256, d: __m256) -> [__m256; 4] {
+    // SAFETY: called from above.
+    unsafe {
+        let (ab, cd) = (_mm256_unpacklo_ps(a, b), _mm256_unpacklo_ps(c, d));
+        let (ab2, cd2) = (_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d));
+        [
+            _mm256_shuffle_ps::<0x44>(ab, cd),
+            _mm256_shuffle_ps::<0xee>(ab, cd),
+            _mm256_shuffle_ps::<0x44>(ab2, cd2),
+            _mm256_shuffle_ps::<0xee>(ab2, cd2),
+        ]
+    }
+}
