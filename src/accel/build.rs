@@ -1,15 +1,16 @@
 //! [`Accel`] and how it is built.
 
-use glam::Vec3;
+use std::num::NonZeroUsize;
 
 use super::Aabb;
-use super::lanes::LANES;
+use super::collect::{Collected, collect};
+use super::layout::Root;
 use super::node::{Child, MOST_TRIANGLES, Node};
 use super::parallel;
-use super::part::{Part, Plan, slots};
+use super::part::{Part, Workshop};
 use super::path::Path;
-use super::split::{partition, split};
-use super::triangles::{Triangle, Triangles};
+use super::top::top;
+use super::triangles::Triangles;
 use crate::shape::TriangleMesh;
 
 /// The triangles of a scene in a tree of boxes.
@@ -42,51 +43,37 @@ impl Accel {
     pub fn build(meshes: &[TriangleMesh]) -> Self {
         let count: usize = meshes.iter().map(|mesh| mesh.indices.len()).sum();
         assert!(count <= Self::MOST_TRIANGLES, "{count} triangles are more than a tree can hold");
-        let mut triangles = collect(meshes);
-        let count = partition(&mut triangles, |triangle| triangle.number != FLAT);
-        let mut shapes = Vec::with_capacity(meshes.len());
-        let mut next = 0;
-        for mesh in meshes {
-            shapes.push(next);
-            next += mesh.indices.len() as u32;
-        }
-        let mut accel = Self {
-            nodes: Vec::new(),
-            triangles: Triangles::with_capacity(0),
-            shapes,
-            bounds: Aabb::EMPTY,
-            largest_coordinate: 0.0,
-            depth: 0,
-            path: Path::available().pop().unwrap_or(Path::Portable),
-        };
-        if count > 0 {
-            accel.join(parts(&mut triangles[..count]));
-        }
-        accel.triangles.finish();
-        accel.bounds = accel.nodes.first().map_or(Aabb::EMPTY, Node::bounds);
-        accel.largest_coordinate = accel.bounds.largest_coordinate();
-        accel
+        Self::build_on(parallel::available(), meshes)
     }
 
-    /// Puts a root above the parts.
-    fn join(&mut self, parts: Vec<Part>) {
-        let boxes: Vec<Aabb> =
-            parts.iter().flat_map(|p| &p.roots).map(|&(bounds, _)| bounds).collect();
-        let mut slots = slots(&boxes).into_iter();
-        self.nodes.reserve_exact(1 + parts.iter().map(|part| part.nodes.len()).sum::<usize>());
-        self.nodes.push(Node::EMPTY);
-        self.triangles = Triangles::with_capacity(parts.iter().map(|p| p.triangles.len()).sum());
-        for part in parts {
-            let first = self.nodes.len();
-            let moved = self.triangles.append(&part.triangles);
-            for ((bounds, root), slot) in part.roots.into_iter().zip(&mut slots) {
-                self.nodes[0].set(slot, &bounds, Child::moved(root, first, moved));
-            }
-            self.nodes.extend(part.nodes.into_iter().map(|mut node| {
-                node.children = node.children.map(|child| Child::moved(child, first, moved));
-                node
-            }));
-            self.depth = self.depth.max(part.depth);
+    fn build_on(threads: NonZeroUsize, meshes: &[TriangleMesh]) -> Self {
+        let Collected { triangles: mut source, counts } = collect(meshes, threads);
+        let mut triangles = Triangles::with_room(source.len());
+        let mut rest = &mut source[..];
+        let tasks = triangles.pieces(&counts).into_iter().zip(counts).map(|(place, count)| {
+            (rest.split_off_mut(..count).expect("as many as there are"), place)
+        });
+        let parts = parallel::map(
+            threads,
+            tasks.collect(),
+            Workshop::default,
+            |workshop, (source, place)| Part::new(workshop, source, place),
+        );
+        let (nodes, depth) = join(&parts);
+        let bounds = nodes.first().map_or(Aabb::EMPTY, Node::bounds);
+        let shapes = meshes.iter().scan(0, |next, mesh| {
+            let first = *next;
+            *next += mesh.indices.len() as u32;
+            Some(first)
+        });
+        Self {
+            nodes,
+            triangles,
+            shapes: shapes.collect(),
+            bounds,
+            largest_coordinate: bounds.largest_coordinate(),
+            depth,
+            path: Path::available().pop().unwrap_or(Path::Portable),
         }
     }
 
@@ -130,44 +117,23 @@ impl Accel {
     }
 }
 
-/// The trees of all parts of the triangles.
-fn parts(triangles: &mut [Triangle]) -> Vec<Part> {
-    let plans = parallel::map(split(triangles), Plan::new);
-    // Each part has a child of the root. The others go one by one to where they save most.
-    let mut counts = vec![1; plans.len()];
-    for _ in plans.len()..LANES {
-        let gains = plans.iter().zip(&counts).map(|(plan, &k)| plan.gain(k));
-        let best = gains.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b));
-        best.into_iter().for_each(|(i, _)| counts[i] += 1);
+/// The nodes of all parts and of the tree above them, the root first, and how deep that is.
+fn join(parts: &[Part]) -> (Vec<Node>, usize) {
+    if parts.is_empty() {
+        return (Vec::new(), 0);
     }
-    let plans = plans.into_iter().zip(counts).collect();
-    parallel::map(plans, |(plan, k)| Plan::lay_out(plan, k))
-}
-
-/// The number of a triangle without area.
-const FLAT: u32 = u32::MAX;
-
-/// All triangles.
-fn collect(meshes: &[TriangleMesh]) -> Vec<Triangle> {
-    const AT_ONCE: usize = 1 << 14;
-    let count = meshes.iter().map(|mesh| mesh.indices.len()).sum();
-    let mut triangles = vec![Triangle { corners: [Vec3::ZERO; 3], number: 0 }; count];
-    let (mut rest, mut number) = (&mut triangles[..], 0);
-    let mut tasks = Vec::new();
-    for mesh in meshes {
-        let (of_mesh, others) = rest.split_at_mut(mesh.indices.len());
-        for (i, chunk) in of_mesh.chunks_mut(AT_ONCE).enumerate() {
-            tasks.push((mesh, AT_ONCE * i, number, chunk));
-        }
-        number += mesh.indices.len() as u32;
-        rest = others;
+    let mut nodes = vec![Node::EMPTY];
+    let mut roots = Vec::new();
+    for part in parts {
+        let first = nodes.len();
+        let moved = |bits| Child::moved(bits, first);
+        nodes.extend(
+            part.nodes
+                .iter()
+                .map(|node| Node { planes: node.planes, children: node.children.map(moved) }),
+        );
+        roots.extend(part.roots.iter().map(|root| Root { bits: moved(root.bits), ..*root }));
     }
-    parallel::map(tasks, |(mesh, first, number, chunk)| {
-        for (i, triangle) in (first..).zip(chunk) {
-            triangle.corners = mesh.corners(i);
-            let is_flat = mesh.geometric_normal(i) == Vec3::ZERO;
-            triangle.number = if is_flat { FLAT } else { number + i as u32 };
-        }
-    });
-    triangles
+    let depth = top(&roots, &mut nodes);
+    (nodes, depth)
 }

@@ -7,11 +7,14 @@
 #![allow(unsafe_code)]
 
 mod aabb;
+mod binary;
 mod build;
 mod bundle;
 mod collapse;
+mod collect;
 mod hit;
 mod lanes;
+mod layout;
 mod needle;
 mod node;
 mod parallel;
@@ -20,6 +23,7 @@ mod path;
 mod slabs;
 mod split;
 mod stack;
+mod top;
 mod triangles;
 mod walk;
 
