@@ -5,6 +5,14 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
+/// So many nodes at least are looked at for a better place. In small trees, such as the uppermost levels of
+/// a large one, those are all.
+const REINSERTED: f32 = 512.0;
+/// Of large trees, this share.
+const RATIO: f32 = 0.05;
+/// How many at a time, of those, as a sequence of ratios.
+const SEQUENCE: [f32; 4] = [1.0, 1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0];
+
 /// Builds one tree after another in the same memory.
 #[derive(Default)]
 pub struct BinaryTrees {
@@ -19,9 +27,24 @@ impl BinaryTrees {
         let mut numbers = std::mem::take(&mut self.tree.primitive_indices);
         numbers.clear();
         numbers.extend(0..primitives.len() as u32);
-        let (distance, precision) = (PlocSearchDistance::Medium, SortPrecision::U64);
-        self.ploc.build_with_bvh(&mut self.tree, distance, primitives, numbers, precision, 3);
-        self.reinsertion.run(&mut self.tree, 0.05, None);
+        let ratio = (REINSERTED / primitives.len() as f32).clamp(RATIO, 1.0);
+        // The first passes over a large tree pair the nearest neighbours only: there are many of them, and
+        // little to choose.
+        let (distance, quick_passes) = if ratio < 1.0 {
+            (PlocSearchDistance::Low, 2)
+        } else {
+            (PlocSearchDistance::Medium, 0)
+        };
+        let precision = SortPrecision::U64;
+        self.ploc.build_with_bvh(
+            &mut self.tree,
+            distance,
+            primitives,
+            numbers,
+            precision,
+            quick_passes,
+        );
+        self.reinsertion.run(&mut self.tree, ratio, Some(SEQUENCE.to_vec()));
         &self.tree
     }
 }

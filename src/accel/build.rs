@@ -47,7 +47,7 @@ impl Accel {
     }
 
     fn build_on(threads: NonZeroUsize, meshes: &[TriangleMesh]) -> Self {
-        let Collected { triangles: mut source, counts } = collect(meshes, threads);
+        let Collected { triangles: mut source, counts, price } = collect(meshes, threads);
         let mut triangles = Triangles::with_room(source.len());
         let mut rest = &mut source[..];
         let tasks = triangles.pieces(&counts).into_iter().zip(counts).map(|(place, count)| {
@@ -57,7 +57,7 @@ impl Accel {
             threads,
             tasks.collect(),
             Workshop::default,
-            |workshop, (source, place)| Part::new(workshop, source, place),
+            |workshop, (source, place)| Part::new(workshop, source, place, price),
         );
         let (nodes, depth) = join(&parts);
         let bounds = nodes.first().map_or(Aabb::EMPTY, Node::bounds);
@@ -136,4 +136,51 @@ fn join(parts: &[Part]) -> (Vec<Node>, usize) {
     }
     let depth = top(&roots, &mut nodes);
     (nodes, depth)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::num::NonZeroUsize;
+
+    use glam::Vec3;
+
+    use super::Accel;
+    use crate::shape::TriangleMesh;
+
+    /// A landscape of many parts, large triangles below it, and many in one place.
+    fn scene() -> [TriangleMesh; 2] {
+        const SIDE: u32 = 200;
+        let mut land = TriangleMesh::default();
+        for i in 0..SIDE * SIDE {
+            let (x, y) = ((i % SIDE) as f32, (i / SIDE) as f32);
+            land.positions.push(Vec3::new(x, y, 9.0 * (x * 0.1).sin() * (y * 0.07).cos()));
+            if i % SIDE + 1 < SIDE && i / SIDE + 1 < SIDE {
+                land.indices.extend([[i, i + 1, i + SIDE], [i + 1, i + SIDE + 1, i + SIDE]]);
+            }
+        }
+        let mut floor = TriangleMesh::default();
+        floor.positions.extend([Vec3::ZERO, 200.0 * Vec3::X, 200.0 * Vec3::Y, Vec3::ONE]);
+        floor.indices.extend([[0, 1, 2]; 40]);
+        floor.indices.push([0, 1, 3]);
+        [land, floor]
+    }
+
+    /// The tree does not depend on how many threads build it. Caught: something that is left in the memory
+    /// of one thread and finds its way into the next part.
+    #[test]
+    fn the_number_of_threads_does_not_matter() {
+        let meshes = scene();
+        let tree = |threads: usize| {
+            let threads = NonZeroUsize::new(threads).expect("at least one");
+            let accel = Accel::build_on(threads, &meshes);
+            assert_eq!(accel.triangle_count(), meshes.iter().map(|mesh| mesh.indices.len()).sum());
+            let nodes: Vec<_> = accel.nodes.iter().map(|n| (n.planes, n.children)).collect();
+            // As text, in which NaN is equal to NaN.
+            (nodes, format!("{:?}", accel.triangles), accel.depth)
+        };
+        let alone = tree(1);
+        for threads in [2, 3, 8] {
+            assert!(tree(threads) == alone, "{threads} threads");
+        }
+    }
 }

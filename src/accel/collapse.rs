@@ -31,6 +31,8 @@ pub struct Choices<'a> {
     /// For k = 1, whether the subtree is one leaf; for others how many of the k children stand for the left
     /// half, with [`FEWER`] where k - 1 are as good.
     choices: &'a [u8],
+    /// What the whole tree costs as at most k children, for k from 1 on.
+    root_costs: &'a [f32],
 }
 
 /// What is known of a node.
@@ -99,7 +101,9 @@ impl Collapse {
             }
             known[place as usize] = Known { start, ways: ways as u8, items: inside };
         }
-        Choices { tree, known, choices }
+        let Known { start, ways, .. } = known[0];
+        let root_costs = &costs[start as usize..][..usize::from(ways)];
+        Choices { tree, known, choices, root_costs }
     }
 }
 
@@ -109,9 +113,11 @@ impl Choices<'_> {
         self.choices[self.known[place as usize].start as usize] == LEAF
     }
 
-    /// The children that stand for the whole tree.
-    pub fn roots(&self) -> ArrayVec<u32, LANES> {
-        self.standing_for([(0, LANES)])
+    /// The children that stand for the whole tree, if a place for a child costs so much.
+    pub fn roots(&self, price: f32) -> ArrayVec<u32, LANES> {
+        let with_price = (1..).zip(self.root_costs).map(|(k, cost)| (k, cost + price * k as f32));
+        let cheapest = with_price.min_by(|(_, a), (_, b)| a.total_cmp(b));
+        self.standing_for([(0, cheapest.map_or(1, |(k, _)| k))])
     }
 
     /// The children that a node of the tree has when it becomes a node.

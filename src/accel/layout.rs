@@ -55,11 +55,13 @@ struct Open {
     level: usize,
 }
 
-/// Lays a tree out, as up to sixteen children of a node above: adds its nodes to `nodes`. It has at most
-/// so many levels of nodes, which must suffice for leaves that are full and equally deep.
+/// Lays a tree out, as up to sixteen children of nodes above, where each place has a price: adds its nodes to
+/// `nodes`. It has at most so many levels of nodes, which must suffice for leaves that are full and equally
+/// deep.
 pub fn lay_out<C: Contents>(
     choices: &Choices,
     contents: &mut C,
+    price: f32,
     levels: usize,
     nodes: &mut Vec<Node>,
 ) -> ArrayVec<Root, LANES> {
@@ -67,7 +69,7 @@ pub fn lay_out<C: Contents>(
     let cheapest_down_to = levels - layout.levels_of_heap();
     let mut roots = ArrayVec::<Root, LANES>::new();
     let mut open = Vec::new();
-    for place in choices.roots() {
+    for place in choices.roots(price) {
         let root = roots.len();
         let below = Below::Subtree(place);
         let bounds = choices.bounds(place);

@@ -36,15 +36,21 @@ pub struct Workshop {
 }
 
 impl Part {
-    /// Builds the tree over at least one triangle and puts the triangles where they are to be.
-    pub fn new(workshop: &mut Workshop, source: &mut [Triangle], place: TrianglesMut) -> Self {
+    /// Builds the tree over at least one triangle and puts the triangles where they are to be. It
+    /// becomes one child of the tree above or several, for each of which that pays a price.
+    pub fn new(
+        workshop: &mut Workshop,
+        source: &mut [Triangle],
+        place: TrianglesMut,
+        price: f32,
+    ) -> Self {
         let Workshop { bundles, trees, collapse } = workshop;
         bundle(source, bundles);
         let tree = trees.build(bundles);
         let choices = collapse.decide(tree, |primitive| bundles[primitive as usize].range().len());
         let mut nodes = Vec::with_capacity(source.len() / 64 + 1);
         let mut contents = OfPart { source, bundles, place };
-        let roots = lay_out(&choices, &mut contents, PART_LEVELS, &mut nodes);
+        let roots = lay_out(&choices, &mut contents, price, PART_LEVELS, &mut nodes);
         Self { roots, nodes }
     }
 }

@@ -9,6 +9,7 @@ pub struct Cuts {
     /// The most planes on the way to a part.
     depth: usize,
     parts: usize,
+    usual_area: f32,
 }
 
 /// A plane, or where there is none a part, below which it is found again.
@@ -21,56 +22,55 @@ struct Cut {
     part: u32,
 }
 
+/// What is cut: boxes, which cut stands for them, and how many are above that.
+struct Piece<'a> {
+    boxes: &'a mut [Aabb],
+    place: u32,
+    level: usize,
+}
+
 const BINS: usize = 32;
 
 impl Cuts {
     /// Cuts the boxes into at most so many parts, always the one that has the most of them.
     pub fn new(boxes: &mut [Aabb], parts: usize) -> Self {
         let mut cuts = vec![Cut::none(0)];
-        let mut waiting = vec![(0, 0, boxes)];
-        let (mut depth, mut whole) = (0, 0);
-        while whole + waiting.len() < parts {
-            let largest = (0..waiting.len()).max_by_key(|&i| waiting[i].2.len());
-            let Some(largest) = largest else { break };
-            let (place, level, boxes) = waiting.swap_remove(largest);
-            let Some((axis, plane)) = cheapest(boxes) else {
-                whole += 1;
+        let mut waiting = vec![Piece { boxes, place: 0, level: 0 }];
+        let mut whole = Vec::new();
+        while whole.len() + waiting.len() < parts {
+            let largest = (0..waiting.len()).max_by_key(|&i| waiting[i].boxes.len());
+            let Some(piece) = largest.map(|largest| waiting.swap_remove(largest)) else { break };
+            let Some((axis, plane)) = cheapest(piece.boxes) else {
+                whole.push(piece);
                 continue;
             };
-            let left = partition(boxes, |b| middle(b)[axis] < plane);
-            if left == 0 || left == boxes.len() {
-                whole += 1;
-                continue;
-            }
             let below = [cuts.len() as u32, cuts.len() as u32 + 1];
             cuts.extend(below.map(Cut::none));
-            cuts[place as usize] = Cut { axis, plane, below, part: 0 };
-            let (left, right) = boxes.split_at_mut(left);
-            waiting.extend([(below[0], level + 1, left), (below[1], level + 1, right)]);
-            depth = depth.max(level + 1);
+            cuts[piece.place as usize] = Cut { axis, plane, below, part: 0 };
+            let left = partition(piece.boxes, |b| middle(b)[axis] < plane);
+            let (left, right) = piece.boxes.split_at_mut(left);
+            let level = piece.level + 1;
+            waiting.push(Piece { boxes: left, place: below[0], level });
+            waiting.push(Piece { boxes: right, place: below[1], level });
         }
-        let mut all = Self { cuts, depth, parts: 0 };
-        all.number_parts();
-        all
-    }
-
-    /// Parts next to each other get numbers next to each other.
-    fn number_parts(&mut self) {
-        let mut open = vec![0];
-        while let Some(place) = open.pop() {
-            let cut = &mut self.cuts[place as usize];
-            if cut.below == [place; 2] {
-                cut.part = self.parts as u32;
-                self.parts += 1;
-            } else {
-                open.extend([cut.below[1], cut.below[0]]);
-            }
-        }
+        whole.extend(waiting);
+        let depth = whole.iter().map(|piece| piece.level).max().unwrap_or(0);
+        let mut areas: Vec<f32> =
+            whole.iter().map(|piece| around(piece.boxes).half_area()).collect();
+        areas.sort_by(f32::total_cmp);
+        let usual_area = areas[areas.len() / 2];
+        let parts = number_parts(&mut cuts);
+        Self { cuts, depth, parts, usual_area }
     }
 
     /// How many parts there are.
     pub fn parts(&self) -> usize {
         self.parts
+    }
+
+    /// Half of the surface area of a part's box, the median.
+    pub fn usual_area(&self) -> f32 {
+        self.usual_area
     }
 
     /// The part that a box belongs to.
@@ -92,8 +92,24 @@ impl Cut {
     }
 }
 
+/// Parts next to each other get numbers next to each other. How many there are.
+fn number_parts(cuts: &mut [Cut]) -> usize {
+    let mut parts = 0;
+    let mut open = vec![0];
+    while let Some(place) = open.pop() {
+        let cut = &mut cuts[place as usize];
+        if cut.below == [place; 2] {
+            cut.part = parts;
+            parts += 1;
+        } else {
+            open.extend([cut.below[1], cut.below[0]]);
+        }
+    }
+    parts as usize
+}
+
 /// The plane that is cheapest by the surface area heuristic (Wald 2007, "On fast Construction of SAH-based
-/// Bounding Volume Hierarchies"), if there is any.
+/// Bounding Volume Hierarchies"), if there is any with boxes on both sides.
 fn cheapest(boxes: &[Aabb]) -> Option<(usize, f32)> {
     let middles = boxes.iter().map(middle).fold(Aabb::empty(), |mut all, m| *all.extend(m));
     let extent = middles.max - middles.min;
@@ -116,7 +132,14 @@ fn cheapest(boxes: &[Aabb]) -> Option<(usize, f32)> {
             }
         }
     }
-    best.1
+    best.1.filter(|&(axis, plane)| {
+        let is_left = |b: &Aabb| middle(b)[axis] < plane;
+        boxes.iter().any(is_left) && !boxes.iter().all(is_left)
+    })
+}
+
+fn around(boxes: &[Aabb]) -> Aabb {
+    boxes.iter().fold(Aabb::empty(), |all, one| all.union(one))
 }
 
 fn costs<'a>(bins: impl Iterator<Item = &'a (f32, Aabb)>) -> [f32; BINS] {

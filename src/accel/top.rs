@@ -22,7 +22,7 @@ pub fn top(pieces: &[Root], nodes: &mut Vec<Node>) -> usize {
     let mut collapse = Collapse::default();
     // A leaf has room for one only.
     let choices = collapse.decide(trees.build(pieces), |_| TOO_MANY);
-    let roots = lay_out(&choices, &mut Pieces(pieces), TOP_LEVELS - 1, nodes);
+    let roots = lay_out(&choices, &mut Pieces(pieces), 0.0, TOP_LEVELS - 1, nodes);
     let boxes: ArrayVec<Aabb, LANES> = roots.iter().map(|root| root.bounds).collect();
     for (root, slot) in roots.iter().zip(slots(&boxes)) {
         nodes[0].set(slot, &root.bounds, root.bits);
