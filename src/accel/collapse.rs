@@ -40,11 +40,14 @@ pub struct Choices<'a> {
 struct Known {
     /// Where its choices begin, for k from 1 on.
     start: u32,
-    /// How many there are: one for each primitive, up to [`LANES`].
+    /// How many there are: one for each primitive, up to [`LANES`], and fewer where that is [`SMALL`].
     ways: u8,
     /// How much there is below it, up to one more than fits into a leaf.
     items: u8,
 }
+
+/// What fits into a leaf is not split into more children than one for each three triangles: it would not pay.
+const SMALL: u8 = 3;
 
 const LEAF: u8 = 1;
 const NODE: u8 = 0;
@@ -65,16 +68,26 @@ impl Collapse {
             let node = &tree.nodes[place as usize];
             let area = node.aabb().half_area();
             let start = costs.len() as u32;
-            if node.is_leaf() {
+            let as_leaf = area * LEAF_COST;
+            let [left, right] = if node.is_leaf() {
                 let inside = items(primitive(tree, node)).min(TOO_MANY) as u8;
-                costs.push(area * LEAF_COST);
+                [Known { start, ways: 1, items: inside }, Known::default()]
+            } else {
+                halves(node).map(|half| known[half as usize])
+            };
+            let inside = (left.items + right.items).min(TOO_MANY as u8);
+            let most = if usize::from(inside) > LANES {
+                LANES
+            } else {
+                usize::from(inside.div_ceil(SMALL))
+            };
+            let ways = usize::from(left.ways + right.ways).min(most);
+            known[place as usize] = Known { start, ways: ways as u8, items: inside };
+            if ways == 1 {
+                costs.push(as_leaf);
                 choices.push(LEAF);
-                known[place as usize] = Known { start, ways: 1, items: inside };
                 continue;
             }
-            let [left, right] = halves(node).map(|half| known[half as usize]);
-            let inside = (left.items + right.items).min(TOO_MANY as u8);
-            let ways = usize::from(left.ways + right.ways).min(LANES);
 
             let costs_of = |half: Known| &costs[half.start as usize..][..usize::from(half.ways)];
             let (mut best, mut lefts) = ([f32::INFINITY; LANES + 1], [0; LANES + 1]);
@@ -83,23 +96,25 @@ impl Collapse {
                 let ks = best[l + 1..].iter_mut().zip(&mut lefts[l + 1..]);
                 for ((best, left), of_right) in ks.zip(of_right) {
                     let cost = of_left + of_right;
-                    (*best, *left) = if cost < *best { (cost, l as u32) } else { (*best, *left) };
+                    (*best, *left) = if cost < *best { (cost, l as u8) } else { (*best, *left) };
                 }
             }
             // A node takes the best of all k.
             let split = best[2..=ways].iter().fold(f32::INFINITY, |a, &b| a.min(b));
             let as_node = area * NODE_COST + split;
-            let as_leaf =
-                if usize::from(inside) <= LANES { area * LEAF_COST } else { f32::INFINITY };
-            choices.push(if as_leaf <= as_node { LEAF } else { NODE });
+            let as_leaf = if usize::from(inside) <= LANES { as_leaf } else { f32::INFINITY };
             let mut least = as_leaf.min(as_node);
-            costs.push(least);
+            let choice = if as_leaf <= as_node { LEAF } else { NODE };
+            (best[1], lefts[1]) = (least, choice);
             for k in 2..=ways {
-                choices.push(lefts[k] as u8 | if best[k] < least { 0 } else { FEWER });
-                least = least.min(best[k]);
-                costs.push(least);
+                if best[k] < least {
+                    least = best[k];
+                } else {
+                    (best[k], lefts[k]) = (least, lefts[k] | FEWER);
+                }
             }
-            known[place as usize] = Known { start, ways: ways as u8, items: inside };
+            costs.extend_from_slice(&best[1..=ways]);
+            choices.extend_from_slice(&lefts[1..=ways]);
         }
         let Known { start, ways, .. } = known[0];
         let root_costs = &costs[start as usize..][..usize::from(ways)];
