@@ -57,7 +57,7 @@ pub fn collect(meshes: &[TriangleMesh], threads: NonZeroUsize) -> Collected {
         || (),
         |(), chunk| {
             let mut counts = vec![0; cuts.parts()];
-            let parts: Vec<u16> = chunk.range.clone().map(|i| part(&cuts, chunk.mesh, i)).collect();
+            let parts = parts_of(&cuts, &chunk);
             for &part in parts.iter().filter(|&&part| part != NOWHERE) {
                 counts[usize::from(part)] += 1;
             }
@@ -125,11 +125,26 @@ fn cuts(meshes: &[TriangleMesh]) -> Cuts {
     Cuts::new(&mut boxes, parts)
 }
 
-fn part(cuts: &Cuts, mesh: &TriangleMesh, i: usize) -> u16 {
-    if mesh.geometric_normal(i) == Vec3::ZERO {
-        return NOWHERE;
+/// The part of each triangle.
+fn parts_of(cuts: &Cuts, chunk: &Chunk) -> Vec<u16> {
+    const ABREAST: usize = 16;
+    let (mesh, end) = (chunk.mesh, chunk.range.end);
+    let mut parts = Vec::with_capacity(chunk.range.len() + ABREAST);
+    for first in chunk.range.clone().step_by(ABREAST) {
+        // Beyond the end the last one again.
+        let triangles: [usize; ABREAST] = std::array::from_fn(|i| (first + i).min(end - 1));
+        let found = cuts.parts_of(&triangles.map(|i| bounds(&mesh.corners(i))));
+        let is_flat = |i: usize| mesh.geometric_normal(i) == Vec3::ZERO;
+        parts.extend(
+            triangles.iter().zip(found).map(
+                |(&i, part)| {
+                    if is_flat(i) { NOWHERE } else { part as u16 }
+                },
+            ),
+        );
     }
-    cuts.part(&bounds(&mesh.corners(i))) as u16
+    parts.truncate(chunk.range.len());
+    parts
 }
 
 fn bounds(corners: &[Vec3; 3]) -> Aabb {

@@ -12,13 +12,14 @@ pub struct Cuts {
     usual_area: f32,
 }
 
-/// A plane, or where there is none a part, below which it is found again.
+/// A plane, or where there is none a part.
 #[derive(Clone, Copy)]
 struct Cut {
     axis: usize,
+    /// NaN in a part, above which nothing lies.
     plane: f32,
-    /// What is on the two sides.
-    below: [u32; 2],
+    /// The cut below the plane, which the one above it follows; in a part, itself.
+    below: u32,
     part: u32,
 }
 
@@ -44,14 +45,14 @@ impl Cuts {
                 whole.push(piece);
                 continue;
             };
-            let below = [cuts.len() as u32, cuts.len() as u32 + 1];
-            cuts.extend(below.map(Cut::none));
+            let below = cuts.len() as u32;
+            cuts.extend([Cut::none(below), Cut::none(below + 1)]);
             cuts[piece.place as usize] = Cut { axis, plane, below, part: 0 };
             let left = partition(piece.boxes, |b| middle(b)[axis] < plane);
             let (left, right) = piece.boxes.split_at_mut(left);
             let level = piece.level + 1;
-            waiting.push(Piece { boxes: left, place: below[0], level });
-            waiting.push(Piece { boxes: right, place: below[1], level });
+            waiting.push(Piece { boxes: left, place: below, level });
+            waiting.push(Piece { boxes: right, place: below + 1, level });
         }
         whole.extend(waiting);
         let depth = whole.iter().map(|piece| piece.level).max().unwrap_or(0);
@@ -73,22 +74,24 @@ impl Cuts {
         self.usual_area
     }
 
-    /// The part that a box belongs to.
-    pub fn part(&self, bounds: &Aabb) -> u32 {
-        let middle = middle(bounds).to_array();
-        // As many steps for each, the last ones on the spot: a loop whose end is not known costs more.
-        let mut place = 0;
+    /// The parts that boxes belong to. Each step down waits for the last one, but not for those of other boxes.
+    pub fn parts_of<const N: usize>(&self, boxes: &[Aabb; N]) -> [u32; N] {
+        let middles = boxes.map(|bounds| middle(&bounds).to_array());
+        let mut places = [0; N];
+        // As many steps for all, the last ones on the spot.
         for _ in 0..self.depth {
-            let cut = &self.cuts[place as usize];
-            place = cut.below[usize::from(middle[cut.axis] >= cut.plane)];
+            for (place, middle) in places.iter_mut().zip(&middles) {
+                let cut = &self.cuts[*place as usize];
+                *place = cut.below + u32::from(middle[cut.axis] >= cut.plane);
+            }
         }
-        self.cuts[place as usize].part
+        places.map(|place| self.cuts[place as usize].part)
     }
 }
 
 impl Cut {
     fn none(place: u32) -> Self {
-        Self { axis: 0, plane: 0.0, below: [place; 2], part: 0 }
+        Self { axis: 0, plane: f32::NAN, below: place, part: 0 }
     }
 }
 
@@ -98,11 +101,11 @@ fn number_parts(cuts: &mut [Cut]) -> usize {
     let mut open = vec![0];
     while let Some(place) = open.pop() {
         let cut = &mut cuts[place as usize];
-        if cut.below == [place; 2] {
+        if cut.below == place {
             cut.part = parts;
             parts += 1;
         } else {
-            open.extend([cut.below[1], cut.below[0]]);
+            open.extend([cut.below + 1, cut.below]);
         }
     }
     parts as usize
