@@ -3,12 +3,13 @@
 use std::num::NonZeroUsize;
 
 use super::Aabb;
-use super::collect::{Collected, collect};
 use super::layout::Root;
 use super::node::{Child, MOST_TRIANGLES, Node};
 use super::parallel;
 use super::part::{Part, Workshop};
 use super::path::Path;
+use super::sort::{Sorted, sort};
+use super::source::Source;
 use super::top::top;
 use super::triangles::Triangles;
 use crate::shape::TriangleMesh;
@@ -47,29 +48,26 @@ impl Accel {
     }
 
     fn build_on(threads: NonZeroUsize, meshes: &[TriangleMesh]) -> Self {
-        let Collected { triangles: mut source, counts, price } = collect(meshes, threads);
-        let mut triangles = Triangles::with_room(source.len());
-        let mut rest = &mut source[..];
-        let tasks = triangles.pieces(&counts).into_iter().zip(counts).map(|(place, count)| {
-            (rest.split_off_mut(..count).expect("as many as there are"), place)
-        });
+        let source = Source::new(meshes);
+        let Sorted { numbers, counts, price } = sort(&source, threads);
+        let mut triangles = Triangles::with_room(numbers.len());
+        let mut rest = &numbers[..];
+        let tasks =
+            triangles.pieces(&counts).into_iter().zip(counts).map(|(place, count)| {
+                (rest.split_off(..count).expect("as many as there are"), place)
+            });
         let parts = parallel::map(
             threads,
             tasks.collect(),
             Workshop::default,
-            |workshop, (source, place)| Part::new(workshop, source, place, price),
+            |workshop, (numbers, place)| Part::new(workshop, &source, numbers, place, price),
         );
         let (nodes, depth) = join(&parts);
         let bounds = nodes.first().map_or(Aabb::EMPTY, Node::bounds);
-        let shapes = meshes.iter().scan(0, |next, mesh| {
-            let first = *next;
-            *next += mesh.indices.len() as u32;
-            Some(first)
-        });
         Self {
             nodes,
             triangles,
-            shapes: shapes.collect(),
+            shapes: source.firsts,
             bounds,
             largest_coordinate: bounds.largest_coordinate(),
             depth,
@@ -122,8 +120,12 @@ fn join(parts: &[Part]) -> (Vec<Node>, usize) {
     if parts.is_empty() {
         return (Vec::new(), 0);
     }
-    let mut nodes = vec![Node::EMPTY];
-    let mut roots = Vec::new();
+    let pieces: usize = parts.iter().map(|part| part.roots.len()).sum();
+    let count: usize = parts.iter().map(|part| part.nodes.len()).sum();
+    // The root, and at most half as many nodes above the parts as pieces of them.
+    let mut nodes = Vec::with_capacity(1 + count + pieces / 2);
+    nodes.push(Node::EMPTY);
+    let mut roots = Vec::with_capacity(pieces);
     for part in parts {
         let first = nodes.len();
         let moved = |bits| Child::moved(bits, first);

@@ -11,6 +11,7 @@ use super::collapse::Collapse;
 use super::lanes::LANES;
 use super::layout::{Contents, Root, lay_out};
 use super::node::Node;
+use super::source::Source;
 use super::stack::MOST_DEEP;
 use super::top::TOP_LEVELS;
 use super::triangles::{Triangle, TrianglesMut};
@@ -30,6 +31,7 @@ pub struct Part {
 /// What one thread builds its parts with.
 #[derive(Default)]
 pub struct Workshop {
+    triangles: Vec<Triangle>,
     bundles: Vec<Bundle>,
     trees: BinaryTrees,
     collapse: Collapse,
@@ -40,16 +42,19 @@ impl Part {
     /// becomes one child of the tree above or several, for each of which that pays a price.
     pub fn new(
         workshop: &mut Workshop,
-        source: &mut [Triangle],
+        source: &Source,
+        numbers: &[u32],
         place: TrianglesMut,
         price: f32,
     ) -> Self {
-        let Workshop { bundles, trees, collapse } = workshop;
-        bundle(source, bundles);
+        let Workshop { triangles, bundles, trees, collapse } = workshop;
+        triangles.clear();
+        triangles.extend(source.triangles(numbers.iter().copied()));
+        bundle(triangles, bundles);
         let tree = trees.build(bundles);
         let choices = collapse.decide(tree, |primitive| bundles[primitive as usize].range().len());
-        let mut nodes = Vec::with_capacity(source.len() / 64 + 1);
-        let mut contents = OfPart { source, bundles, place };
+        let mut nodes = Vec::with_capacity(triangles.len() / 64 + 1);
+        let mut contents = OfPart { triangles, bundles, place };
         let roots = lay_out(&choices, &mut contents, price, PART_LEVELS, &mut nodes);
         Self { roots, nodes }
     }
@@ -57,7 +62,7 @@ impl Part {
 
 /// The triangles of a part.
 struct OfPart<'a> {
-    source: &'a [Triangle],
+    triangles: &'a [Triangle],
     bundles: &'a [Bundle],
     place: TrianglesMut<'a>,
 }
@@ -66,7 +71,7 @@ impl Contents for OfPart<'_> {
     const MOST: usize = LANES;
 
     fn count(&self) -> usize {
-        self.source.len()
+        self.triangles.len()
     }
 
     fn items(&self, primitive: u32) -> Range<u32> {
@@ -74,12 +79,12 @@ impl Contents for OfPart<'_> {
     }
 
     fn bounds(&self, item: u32) -> Aabb {
-        self.source[item as usize].corners.into_iter().fold(Aabb::EMPTY, Aabb::including)
+        self.triangles[item as usize].corners.into_iter().fold(Aabb::EMPTY, Aabb::including)
     }
 
     fn leaf(&mut self, items: &[u32]) -> (u32, usize) {
         let leaf: ArrayVec<Triangle, LANES> =
-            items.iter().map(|&item| self.source[item as usize]).collect();
+            items.iter().map(|&item| self.triangles[item as usize]).collect();
         (self.place.push(&leaf), 0)
     }
 }
