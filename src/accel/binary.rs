@@ -30,21 +30,12 @@ impl BinaryTrees {
         let ratio = (REINSERTED / primitives.len() as f32).clamp(RATIO, 1.0);
         // The first passes over a large tree pair the nearest neighbours only: there are many of them, and
         // little to choose.
-        let (distance, quick_passes) = if ratio < 1.0 {
-            (PlocSearchDistance::Low, 2)
-        } else {
-            (PlocSearchDistance::Medium, 0)
-        };
-        let precision = SortPrecision::U64;
-        self.ploc.build_with_bvh(
-            &mut self.tree,
-            distance,
-            primitives,
-            numbers,
-            precision,
-            quick_passes,
-        );
-        self.reinsertion.run(&mut self.tree, ratio, Some(SEQUENCE.to_vec()));
-        &self.tree
+        let is_small = ratio == 1.0;
+        let quick_passes = if is_small { 0 } else { 2 };
+        let distance = if is_small { PlocSearchDistance::Medium } else { PlocSearchDistance::Low };
+        let (ploc, tree, precision) = (&mut self.ploc, &mut self.tree, SortPrecision::U64);
+        ploc.build_with_bvh(tree, distance, primitives, numbers, precision, quick_passes);
+        self.reinsertion.run(tree, ratio, Some(SEQUENCE.to_vec()));
+        tree
     }
 }

@@ -16,7 +16,8 @@ use crate::shape::TriangleMesh;
 
 /// The triangles of a scene in a tree of boxes.
 ///
-/// obvhs builds binary trees (PLOC, then reinsertion). They are collapsed to nodes of sixteen children and
+/// A large scene is cut into parts. Over each, and in the end over what stands for the parts, obvhs builds a
+/// binary tree (PLOC, then reinsertion). The trees are collapsed to nodes of sixteen children and
 /// leaves of up to sixteen triangles, which rays are tested against sixteen at a time.
 #[derive(Debug)]
 pub struct Accel {
@@ -48,8 +49,10 @@ impl Accel {
     }
 
     fn build_on(threads: NonZeroUsize, meshes: &[TriangleMesh]) -> Self {
+        // Sort the triangles into parts.
         let source = Source::new(meshes);
         let Sorted { numbers, counts, price } = sort(&source, threads);
+        // Build each part, with its triangles where they are to be.
         let mut triangles = Triangles::with_room(numbers.len());
         let mut rest = &numbers[..];
         let tasks =
@@ -62,6 +65,7 @@ impl Accel {
             Workshop::default,
             |workshop, (numbers, place)| Part::new(workshop, &source, numbers, place, price),
         );
+        // Put them below one root.
         let (nodes, depth) = join(&parts);
         let bounds = nodes.first().map_or(Aabb::EMPTY, Node::bounds);
         Self {
@@ -122,7 +126,7 @@ fn join(parts: &[Part]) -> (Vec<Node>, usize) {
     }
     let pieces: usize = parts.iter().map(|part| part.roots.len()).sum();
     let count: usize = parts.iter().map(|part| part.nodes.len()).sum();
-    // The root, and at most half as many nodes above the parts as pieces of them.
+    // The root, those of the parts, and about as many above them as there is room for here.
     let mut nodes = Vec::with_capacity(1 + count + pieces / 2);
     nodes.push(Node::EMPTY);
     let mut roots = Vec::with_capacity(pieces);

@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use glam::Vec3A;
 use obvhs::Boundable;
 use obvhs::aabb::Aabb;
 
@@ -25,7 +24,7 @@ pub struct Bundle {
 
 impl Bundle {
     fn new(triangles: &[Triangle], first: usize, count: usize) -> Self {
-        let boxes = triangles[first..first + count].iter().map(bounds);
+        let boxes = triangles[first..first + count].iter().map(Triangle::bounds);
         let bounds = boxes.fold(Aabb::empty(), |all, one| all.union(&one));
         Self { first: first as u32, count: count as u32, bounds }
     }
@@ -72,14 +71,9 @@ fn may_have_heaps(triangles: &[Triangle]) -> bool {
     })
 }
 
-fn bounds(triangle: &Triangle) -> Aabb {
-    let [a, b, c] = triangle.corners.map(Vec3A::from);
-    Aabb { min: a.min(b).min(c), max: a.max(b).max(c) }
-}
-
 /// A number that equal boxes share. Others may share it too, which costs a little time and no hit.
 fn key(triangle: &Triangle) -> u64 {
-    let bounds = bounds(triangle);
+    let bounds = triangle.bounds();
     let numbers = bounds.min.to_array().into_iter().chain(bounds.max.to_array());
     // FNV-1a over words, rotated so that upper bits come down.
     let hash = numbers.fold(0xcbf2_9ce4_8422_2325, |hash: u64, x| {

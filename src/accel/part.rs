@@ -38,8 +38,9 @@ pub struct Workshop {
 }
 
 impl Part {
-    /// Builds the tree over at least one triangle and puts the triangles where they are to be. It
-    /// becomes one child of the tree above or several, for each of which that pays a price.
+    /// Builds the tree over at least one triangle, given by ascending numbers, and puts the triangles where
+    /// they are to be. It becomes one child of the tree above or several, for each of which that pays a
+    /// price.
     pub fn new(
         workshop: &mut Workshop,
         source: &Source,

@@ -4,19 +4,20 @@ use std::num::NonZeroUsize;
 use std::ops::Range;
 
 use arrayvec::ArrayVec;
-use glam::{Vec3, Vec3A};
+use glam::Vec3;
 use obvhs::aabb::Aabb;
 
 use super::parallel;
 use super::source::Source;
 use super::split::Cuts;
+use super::triangles::Triangle;
 use crate::shape::triangle_normal;
 
-/// A part has about so many triangles: while a tree is built over them, all that is known of them stays
-/// near to the processor.
+/// A part has about so many triangles: while a tree is built over them, all that is known of them, a few
+/// hundred bytes each, stays near to the processor.
 const PART: usize = 1 << 13;
-/// More parts than this do not fit into the upper levels of the tree; see [`super::layout`].
-const MOST_PARTS: usize = 256;
+/// There are no more parts than this: the levels above them are few; see [`super::top`].
+pub const MOST_PARTS: usize = 256;
 /// So many triangles of each part say where to cut.
 const SAMPLES: usize = 256;
 
@@ -104,7 +105,7 @@ fn cuts(source: &Source) -> Cuts {
     let parts = (count / PART).clamp(1, MOST_PARTS);
     let step = (count / (parts * SAMPLES)).max(1);
     let some = (0..source.count).step_by(step).filter(|_| parts > 1);
-    let mut boxes: Vec<Aabb> = source.triangles(some).map(|t| bounds(&t.corners)).collect();
+    let mut boxes: Vec<Aabb> = source.triangles(some).map(|triangle| triangle.bounds()).collect();
     Cuts::new(&mut boxes, parts)
 }
 
@@ -112,19 +113,15 @@ fn cuts(source: &Source) -> Cuts {
 fn parts_of(cuts: &Cuts, source: &Source, numbers: Range<u32>) -> Vec<u16> {
     const ABREAST: usize = 16;
     let mut parts = Vec::with_capacity(numbers.len());
-    let mut triangles = source.triangles(numbers).map(|triangle| triangle.corners);
+    let mut triangles = source.triangles(numbers);
     loop {
-        let some: ArrayVec<[Vec3; 3], ABREAST> = triangles.by_ref().take(ABREAST).collect();
+        let some: ArrayVec<Triangle, ABREAST> = triangles.by_ref().take(ABREAST).collect();
         let Some(last) = some.last() else { return parts };
-        let found =
-            cuts.parts_of::<ABREAST>(&std::array::from_fn(|i| bounds(some.get(i).unwrap_or(last))));
-        parts.extend(some.iter().zip(found).map(|(&corners, part)| {
-            if triangle_normal(corners) == Vec3::ZERO { NOWHERE } else { part as u16 }
+        let boxes = std::array::from_fn(|i| some.get(i).unwrap_or(last).bounds());
+        let found = cuts.parts_of::<ABREAST>(&boxes);
+        parts.extend(some.iter().zip(found).map(|(triangle, part)| {
+            let is_flat = triangle_normal(triangle.corners) == Vec3::ZERO;
+            if is_flat { NOWHERE } else { part as u16 }
         }));
     }
-}
-
-fn bounds(corners: &[Vec3; 3]) -> Aabb {
-    let [a, b, c] = corners.map(Vec3A::from);
-    Aabb { min: a.min(b).min(c), max: a.max(b).max(c) }
 }

@@ -11,9 +11,11 @@ use super::collapse::{Collapse, TOO_MANY};
 use super::lanes::LANES;
 use super::layout::{Contents, Root, lay_out, slots};
 use super::node::Node;
+use super::sort::MOST_PARTS;
 
 /// The levels of nodes above the parts, with the root.
 pub const TOP_LEVELS: usize = 6;
+const _: () = assert!(MOST_PARTS * LANES <= LANES.pow(TOP_LEVELS as u32 - 1));
 
 /// Builds a tree over what stands for the parts: fills in the root, which is the first of `nodes`, and adds
 /// the nodes between. How deep the whole tree is.

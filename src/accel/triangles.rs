@@ -1,6 +1,7 @@
 //! [`Triangles`]: what leaves hold.
 
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
+use obvhs::aabb::Aabb;
 
 use super::lanes::{LANES, Lanes};
 use super::node::Child;
@@ -10,6 +11,13 @@ use super::node::Child;
 pub struct Triangle {
     pub corners: [Vec3; 3],
     pub number: u32,
+}
+
+impl Triangle {
+    pub fn bounds(&self) -> Aabb {
+        let [a, b, c] = self.corners.map(Vec3A::from);
+        Aabb { min: a.min(b).min(c), max: a.max(b).max(c) }
+    }
 }
 
 /// The triangles of all leaves, leaf after leaf.
