@@ -1,20 +1,23 @@
 //! [`Accel`] and how it is built.
 
-use glam::Vec3;
+use std::num::NonZeroUsize;
 
 use super::Aabb;
-use super::lanes::LANES;
+use super::layout::Root;
 use super::node::{Child, MOST_TRIANGLES, Node};
 use super::parallel;
-use super::part::{Part, Plan, slots};
+use super::part::{Part, Workshop};
 use super::path::Path;
-use super::split::{partition, split};
-use super::triangles::{Triangle, Triangles};
+use super::sort::{Sorted, sort};
+use super::source::Source;
+use super::top::top;
+use super::triangles::Triangles;
 use crate::shape::TriangleMesh;
 
 /// The triangles of a scene in a tree of boxes.
 ///
-/// obvhs builds binary trees (PLOC, then reinsertion). They are collapsed to nodes of sixteen children and
+/// A large scene is cut into parts. Over each, and in the end over what stands for the parts, obvhs builds a
+/// binary tree (PLOC, then reinsertion). The trees are collapsed to nodes of sixteen children and
 /// leaves of up to sixteen triangles, which rays are tested against sixteen at a time.
 #[derive(Clone, Debug)]
 pub struct Accel {
@@ -44,53 +47,38 @@ impl Accel {
     pub fn build(meshes: &[TriangleMesh]) -> Self {
         let count: usize = meshes.iter().map(|mesh| mesh.indices.len()).sum();
         assert!(count <= Self::MOST_TRIANGLES, "{count} triangles are more than a tree can hold");
-        let mut triangles = collect(meshes);
-        let count = partition(&mut triangles, |triangle| triangle.number != FLAT);
-        let mut shapes = Vec::with_capacity(meshes.len());
-        let mut next = 0;
-        for mesh in meshes {
-            shapes.push(next);
-            next += mesh.indices.len() as u32;
-        }
-        let mut accel = Self {
-            nodes: Vec::new(),
-            triangles: Triangles::with_capacity(0),
-            shapes,
-            bounds: Aabb::EMPTY,
-            largest_coordinate: 0.0,
-            grain: 0.0,
-            depth: 0,
-            path: Path::available().pop().unwrap_or(Path::Portable),
-        };
-        if count > 0 {
-            accel.join(parts(&mut triangles[..count]));
-        }
-        accel.triangles.finish();
-        accel.bounds = accel.nodes.first().map_or(Aabb::EMPTY, Node::bounds);
-        accel.largest_coordinate = accel.bounds.largest_coordinate();
-        accel.grain = grain(&accel.nodes);
-        accel
+        Self::build_on(parallel::available(), meshes)
     }
 
-    /// Puts a root above the parts.
-    fn join(&mut self, parts: Vec<Part>) {
-        let boxes: Vec<Aabb> =
-            parts.iter().flat_map(|p| &p.roots).map(|&(bounds, _)| bounds).collect();
-        let mut slots = slots(&boxes).into_iter();
-        self.nodes.reserve_exact(1 + parts.iter().map(|part| part.nodes.len()).sum::<usize>());
-        self.nodes.push(Node::EMPTY);
-        self.triangles = Triangles::with_capacity(parts.iter().map(|p| p.triangles.len()).sum());
-        for part in parts {
-            let first = self.nodes.len();
-            let moved = self.triangles.append(&part.triangles);
-            for ((bounds, root), slot) in part.roots.into_iter().zip(&mut slots) {
-                self.nodes[0].set(slot, &bounds, Child::moved(root, first, moved));
-            }
-            self.nodes.extend(part.nodes.into_iter().map(|mut node| {
-                node.children = node.children.map(|child| Child::moved(child, first, moved));
-                node
-            }));
-            self.depth = self.depth.max(part.depth);
+    fn build_on(threads: NonZeroUsize, meshes: &[TriangleMesh]) -> Self {
+        // Sort the triangles into parts.
+        let source = Source::new(meshes);
+        let Sorted { numbers, counts, price } = sort(&source, threads);
+        // Build each part, with its triangles where they are to be.
+        let mut triangles = Triangles::with_room(numbers.len());
+        let mut rest = &numbers[..];
+        let tasks =
+            triangles.pieces(&counts).into_iter().zip(counts).map(|(place, count)| {
+                (rest.split_off(..count).expect("as many as there are"), place)
+            });
+        let parts = parallel::map(
+            threads,
+            tasks.collect(),
+            Workshop::default,
+            |workshop, (numbers, place)| Part::new(workshop, &source, numbers, place, price),
+        );
+        // Put them below one root.
+        let (nodes, depth) = join(&parts);
+        let bounds = nodes.first().map_or(Aabb::EMPTY, Node::bounds);
+        Self {
+            grain: grain(&nodes),
+            nodes,
+            triangles,
+            shapes: source.firsts,
+            bounds,
+            largest_coordinate: bounds.largest_coordinate(),
+            depth,
+            path: Path::available().pop().unwrap_or(Path::Portable),
         }
     }
 
@@ -134,46 +122,84 @@ impl Accel {
     }
 }
 
-/// The trees of all parts of the triangles.
-fn parts(triangles: &mut [Triangle]) -> Vec<Part> {
-    let plans = parallel::map(split(triangles), Plan::new);
-    // Each part has a child of the root. The others go one by one to where they save most.
-    let mut counts = vec![1; plans.len()];
-    for _ in plans.len()..LANES {
-        let gains = plans.iter().zip(&counts).map(|(plan, &k)| plan.gain(k));
-        let best = gains.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b));
-        best.into_iter().for_each(|(i, _)| counts[i] += 1);
+/// The nodes of all parts and of the tree above them, the root first, and how deep that is.
+fn join(parts: &[Part]) -> (Vec<Node>, usize) {
+    if parts.is_empty() {
+        return (Vec::new(), 0);
     }
-    let plans = plans.into_iter().zip(counts).collect();
-    parallel::map(plans, |(plan, k)| Plan::lay_out(plan, k))
+    let pieces: usize = parts.iter().map(|part| part.roots.len()).sum();
+    let count: usize = parts.iter().map(|part| part.nodes.len()).sum();
+    // The root, those of the parts, and about as many above them as there is room for here.
+    let mut nodes = Vec::with_capacity(1 + count + pieces / 2);
+    nodes.push(Node::EMPTY);
+    let mut roots = Vec::with_capacity(pieces);
+    for part in parts {
+        let first = nodes.len();
+        let moved = |bits| Child::moved(bits, first);
+        nodes.extend(
+            part.nodes
+                .iter()
+                .map(|node| Node { planes: node.planes, children: node.children.map(moved) }),
+        );
+        roots.extend(part.roots.iter().map(|root| Root { bits: moved(root.bits), ..*root }));
+    }
+    let depth = top(&roots, &mut nodes);
+    (nodes, depth)
 }
 
-/// The number of a triangle without area.
-const FLAT: u32 = u32::MAX;
+/// The mean area of a face of the boxes of leaves; 0 without any.
+fn grain(nodes: &[Node]) -> f32 {
+    let areas = nodes.iter().flat_map(Node::leaf_areas);
+    let (sum, count) =
+        areas.fold((0.0, 0.0), |(sum, count), area| (sum + f64::from(area), count + 1.0_f64));
+    (sum / (3.0 * count.max(1.0))) as f32
+}
 
-/// All triangles.
-fn collect(meshes: &[TriangleMesh]) -> Vec<Triangle> {
-    const AT_ONCE: usize = 1 << 14;
-    let count = meshes.iter().map(|mesh| mesh.indices.len()).sum();
-    let mut triangles = vec![Triangle { corners: [Vec3::ZERO; 3], number: 0 }; count];
-    let (mut rest, mut number) = (&mut triangles[..], 0);
-    let mut tasks = Vec::new();
-    for mesh in meshes {
-        let (of_mesh, others) = rest.split_at_mut(mesh.indices.len());
-        for (i, chunk) in of_mesh.chunks_mut(AT_ONCE).enumerate() {
-            tasks.push((mesh, AT_ONCE * i, number, chunk));
+#[cfg(test)]
+mod tests {
+    use std::num::NonZeroUsize;
+
+    use glam::Vec3;
+
+    use super::Accel;
+    use crate::shape::TriangleMesh;
+
+    /// A landscape of many parts, large triangles below it, and many in one place.
+    fn scene() -> [TriangleMesh; 2] {
+        const SIDE: u32 = 200;
+        let mut land = TriangleMesh::default();
+        for i in 0..SIDE * SIDE {
+            let (x, y) = ((i % SIDE) as f32, (i / SIDE) as f32);
+            land.positions.push(Vec3::new(x, y, 9.0 * (x * 0.1).sin() * (y * 0.07).cos()));
+            if i % SIDE + 1 < SIDE && i / SIDE + 1 < SIDE {
+                land.indices.extend([[i, i + 1, i + SIDE], [i + 1, i + SIDE + 1, i + SIDE]]);
+            }
         }
-        number += mesh.indices.len() as u32;
-        rest = others;
+        let mut floor = TriangleMesh::default();
+        floor.positions.extend([Vec3::ZERO, 200.0 * Vec3::X, 200.0 * Vec3::Y, Vec3::ONE]);
+        floor.indices.extend([[0, 1, 2]; 40]);
+        floor.indices.push([0, 1, 3]);
+        [land, floor]
     }
-    parallel::map(tasks, |(mesh, first, number, chunk)| {
-        for (i, triangle) in (first..).zip(chunk) {
-            triangle.corners = mesh.corners(i);
-            let is_flat = mesh.geometric_normal(i) == Vec3::ZERO;
-            triangle.number = if is_flat { FLAT } else { number + i as u32 };
+
+    /// The tree does not depend on how many threads build it. Caught: something that is left in the memory
+    /// of one thread and finds its way into the next part.
+    #[test]
+    fn the_number_of_threads_does_not_matter() {
+        let meshes = scene();
+        let tree = |threads: usize| {
+            let threads = NonZeroUsize::new(threads).expect("at least one");
+            let accel = Accel::build_on(threads, &meshes);
+            assert_eq!(accel.triangle_count(), meshes.iter().map(|mesh| mesh.indices.len()).sum());
+            let nodes: Vec<_> = accel.nodes.iter().map(|n| (n.planes, n.children)).collect();
+            // As text, in which NaN is equal to NaN.
+            (nodes, format!("{:?}", accel.triangles), accel.depth)
+        };
+        let alone = tree(1);
+        for threads in [2, 3, 8] {
+            assert!(tree(threads) == alone, "{threads} threads");
         }
-    });
-    triangles
+    }
 }
 
 /// The mean area of a face of the boxes of leaves; 0 without any.

@@ -2,14 +2,13 @@
 
 use std::ops::Range;
 
-use glam::Vec3A;
 use obvhs::Boundable;
 use obvhs::aabb::Aabb;
 
 use super::triangles::Triangle;
 
 /// More triangles than this with the same box are one to the tree.
-const MOST: usize = 16;
+const MOST: u8 = 16;
 
 /// What a leaf is made of: almost always one triangle.
 ///
@@ -25,14 +24,14 @@ pub struct Bundle {
 
 impl Bundle {
     fn new(triangles: &[Triangle], first: usize, count: usize) -> Self {
-        let boxes = triangles[first..first + count].iter().map(bounds);
+        let boxes = triangles[first..first + count].iter().map(Triangle::bounds);
         let bounds = boxes.fold(Aabb::empty(), |all, one| all.union(&one));
         Self { first: first as u32, count: count as u32, bounds }
     }
 
     /// Which triangles.
-    pub fn range(&self) -> Range<usize> {
-        self.first as usize..(self.first + self.count) as usize
+    pub fn range(&self) -> Range<u32> {
+        self.first..self.first + self.count
     }
 }
 
@@ -43,37 +42,43 @@ impl Boundable for Bundle {
 }
 
 /// Sorts the triangles into bundles. Where there are no heaps, their order is kept.
-pub fn bundle(triangles: &mut [Triangle]) -> Vec<Bundle> {
-    let mut keys: Vec<u64> = triangles.iter().map(key).collect();
-    keys.sort_unstable();
-    if keys.len() <= MOST || keys.windows(MOST + 1).all(|run| run[0] != run[MOST]) {
-        return (0..triangles.len()).map(|i| Bundle::new(triangles, i, 1)).collect();
+pub fn bundle(triangles: &mut [Triangle], bundles: &mut Vec<Bundle>) {
+    bundles.clear();
+    if !may_have_heaps(triangles) {
+        bundles.extend((0..triangles.len()).map(|i| Bundle::new(triangles, i, 1)));
+        return;
     }
     triangles.sort_by_key(key);
-    let mut bundles = Vec::new();
     let mut first = 0;
     for heap in triangles.chunk_by(|a, b| key(a) == key(b)) {
-        if heap.len() > MOST {
+        if heap.len() > usize::from(MOST) {
             bundles.push(Bundle::new(triangles, first, heap.len()));
         } else {
             bundles.extend((first..first + heap.len()).map(|i| Bundle::new(triangles, i, 1)));
         }
         first += heap.len();
     }
-    bundles
 }
 
-fn bounds(triangle: &Triangle) -> Aabb {
-    let [a, b, c] = triangle.corners.map(Vec3A::from);
-    Aabb { min: a.min(b).min(c), max: a.max(b).max(c) }
+/// Whether so many triangles have keys with the same upper bits that they may be a heap.
+fn may_have_heaps(triangles: &[Triangle]) -> bool {
+    let bits = (2 * triangles.len()).next_power_of_two().ilog2();
+    let mut counts = vec![0_u8; 1 << bits];
+    triangles.iter().any(|triangle| {
+        let count = &mut counts[(key(triangle) >> (64 - bits)) as usize];
+        *count += 1;
+        *count > MOST
+    })
 }
 
 /// A number that equal boxes share. Others may share it too, which costs a little time and no hit.
 fn key(triangle: &Triangle) -> u64 {
-    let bounds = bounds(triangle);
+    let bounds = triangle.bounds();
     let numbers = bounds.min.to_array().into_iter().chain(bounds.max.to_array());
     // FNV-1a over words, rotated so that upper bits come down.
-    numbers.fold(0xcbf2_9ce4_8422_2325, |hash: u64, x| {
+    let hash = numbers.fold(0xcbf2_9ce4_8422_2325, |hash: u64, x| {
         (hash ^ u64::from(x.to_bits())).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(23)
-    })
+    });
+    // Fibonacci hashing: all bits have a part in the upper ones.
+    hash.wrapping_mul(0x9e37_79b9_7f4a_7c15)
 }

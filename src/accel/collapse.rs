@@ -11,19 +11,28 @@ use super::lanes::LANES;
 const NODE_COST: f32 = 1.0;
 const LEAF_COST: f32 = 1.0;
 
-/// The choices that make the cheapest wide tree of a binary one, each of whose leaves has one primitive.
+/// Decides for one tree after another in the same memory.
 ///
 /// Ylitie, Karras and Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
 /// BVHs", section 3.1: the cheapest way to stand for a subtree by at most k children, for every k, follows
 /// from the ways to stand for its two halves.
+#[derive(Default)]
 pub struct Collapse {
-    tree: Bvh2,
+    order: Vec<u32>,
     known: Vec<Known>,
+    choices: Vec<u8>,
+    costs: Vec<f32>,
+}
+
+/// The choices that make the cheapest wide tree of a binary one, each of whose leaves has one primitive.
+pub struct Choices<'a> {
+    tree: &'a Bvh2,
+    known: &'a [Known],
     /// For k = 1, whether the subtree is one leaf; for others how many of the k children stand for the left
     /// half, with [`FEWER`] where k - 1 are as good.
-    choices: Vec<u8>,
+    choices: &'a [u8],
     /// What the whole tree costs as at most k children, for k from 1 on.
-    root_costs: ArrayVec<f32, LANES>,
+    root_costs: &'a [f32],
 }
 
 /// What is known of a node.
@@ -31,85 +40,99 @@ pub struct Collapse {
 struct Known {
     /// Where its choices begin, for k from 1 on.
     start: u32,
-    /// How many there are: one for each primitive, up to [`LANES`].
+    /// How many there are: one for each primitive, up to [`LANES`], and fewer where that is [`SMALL`].
     ways: u8,
-    /// How many triangles are below it, up to one more than fit into a leaf.
-    triangles: u8,
+    /// How much there is below it, up to one more than fits into a leaf.
+    items: u8,
 }
+
+/// What fits into a leaf is not split into more children than one for each three triangles: it would not pay.
+const SMALL: u8 = 3;
 
 const LEAF: u8 = 1;
 const NODE: u8 = 0;
 const FEWER: u8 = 0x80;
-const TOO_MANY: usize = LANES + 1;
+/// More than fits into a leaf.
+pub const TOO_MANY: usize = LANES + 1;
 
 impl Collapse {
-    /// Decides for all nodes of the tree. `triangles` says how many are in a primitive.
-    pub fn new(tree: Bvh2, triangles: impl Fn(u32) -> usize) -> Self {
-        let mut known = vec![Known::default(); tree.nodes.len()];
-        // Half of the nodes have one way, and a full node sixteen.
-        let mut choices = Vec::with_capacity(4 * tree.nodes.len());
-        let mut costs = Vec::with_capacity(4 * tree.nodes.len());
-        for place in parents_first(&tree).into_iter().rev() {
+    /// Decides for all nodes of the tree. `items` says how many of what leaves have room for [`LANES`] of are
+    /// in a primitive.
+    pub fn decide<'a>(&'a mut self, tree: &'a Bvh2, items: impl Fn(u32) -> usize) -> Choices<'a> {
+        parents_first(tree, &mut self.order);
+        self.known.resize(tree.nodes.len(), Known::default());
+        self.choices.clear();
+        self.costs.clear();
+        let Self { order, known, choices, costs } = self;
+        for &place in order.iter().rev() {
             let node = &tree.nodes[place as usize];
             let area = node.aabb().half_area();
-            let start = costs.len();
-            if node.is_leaf() {
-                let inside = triangles(tree.primitive_indices[node.first_index as usize]);
-                costs.push(area * LEAF_COST);
+            let start = costs.len() as u32;
+            let as_leaf = area * LEAF_COST;
+            let [left, right] = if node.is_leaf() {
+                let inside = items(primitive(tree, node)).min(TOO_MANY) as u8;
+                [Known { start, ways: 1, items: inside }, Known::default()]
+            } else {
+                halves(node).map(|half| known[half as usize])
+            };
+            let inside = (left.items + right.items).min(TOO_MANY as u8);
+            let most = if usize::from(inside) > LANES {
+                LANES
+            } else {
+                usize::from(inside.div_ceil(SMALL))
+            };
+            let ways = usize::from(left.ways + right.ways).min(most);
+            known[place as usize] = Known { start, ways: ways as u8, items: inside };
+            if ways == 1 {
+                costs.push(as_leaf);
                 choices.push(LEAF);
-                let triangles = inside.min(TOO_MANY) as u8;
-                known[place as usize] = Known { start: start as u32, ways: 1, triangles };
                 continue;
             }
-            let [left, right] = halves(node).map(|half| known[half as usize]);
-            let inside = (left.triangles + right.triangles).min(TOO_MANY as u8);
-            let ways = usize::from(left.ways + right.ways).min(LANES);
 
-            let cost_of = |half: Known, k: usize| costs[half.start as usize + k - 1];
+            let costs_of = |half: Known| &costs[half.start as usize..][..usize::from(half.ways)];
             let (mut best, mut lefts) = ([f32::INFINITY; LANES + 1], [0; LANES + 1]);
-            for l in 1..=usize::from(left.ways).min(LANES - 1) {
-                for r in 1..=usize::from(right.ways).min(LANES - l) {
-                    let cost = cost_of(left, l) + cost_of(right, r);
-                    if cost < best[l + r] {
-                        best[l + r] = cost;
-                        lefts[l + r] = l as u8;
-                    }
+            let of_right = costs_of(right);
+            for (l, of_left) in (1..LANES).zip(costs_of(left)) {
+                let ks = best[l + 1..].iter_mut().zip(&mut lefts[l + 1..]);
+                for ((best, left), of_right) in ks.zip(of_right) {
+                    let cost = of_left + of_right;
+                    (*best, *left) = if cost < *best { (cost, l as u8) } else { (*best, *left) };
                 }
             }
             // A node takes the best of all k.
             let split = best[2..=ways].iter().fold(f32::INFINITY, |a, &b| a.min(b));
             let as_node = area * NODE_COST + split;
-            let as_leaf =
-                if usize::from(inside) <= LANES { area * LEAF_COST } else { f32::INFINITY };
-            choices.push(if as_leaf <= as_node { LEAF } else { NODE });
+            let as_leaf = if usize::from(inside) <= LANES { as_leaf } else { f32::INFINITY };
             let mut least = as_leaf.min(as_node);
-            costs.push(least);
+            let choice = if as_leaf <= as_node { LEAF } else { NODE };
+            (best[1], lefts[1]) = (least, choice);
             for k in 2..=ways {
-                choices.push(lefts[k] | if best[k] < least { 0 } else { FEWER });
-                least = least.min(best[k]);
-                costs.push(least);
+                if best[k] < least {
+                    least = best[k];
+                } else {
+                    (best[k], lefts[k]) = (least, lefts[k] | FEWER);
+                }
             }
-            known[place as usize] =
-                Known { start: start as u32, ways: ways as u8, triangles: inside };
+            costs.extend_from_slice(&best[1..=ways]);
+            choices.extend_from_slice(&lefts[1..=ways]);
         }
         let Known { start, ways, .. } = known[0];
-        let root_costs = costs[start as usize..][..usize::from(ways)].iter().copied().collect();
-        Self { tree, known, choices, root_costs }
+        let root_costs = &costs[start as usize..][..usize::from(ways)];
+        Choices { tree, known, choices, root_costs }
     }
+}
 
+impl Choices<'_> {
     /// Whether a node of the tree becomes a leaf.
     pub fn is_leaf(&self, place: u32) -> bool {
         self.choices[self.known[place as usize].start as usize] == LEAF
     }
 
-    /// What the whole tree costs as at most `k` children.
-    pub fn root_cost(&self, k: usize) -> f32 {
-        self.root_costs[k.min(self.root_costs.len()) - 1]
-    }
-
-    /// The at most `k` children that stand for the whole tree.
-    pub fn roots(&self, k: usize) -> ArrayVec<u32, LANES> {
-        self.standing_for([(0, k)])
+    /// The children that stand for the whole tree, if a place for a child costs so much.
+    pub fn roots(&self, price: f32) -> ArrayVec<u32, LANES> {
+        let with_price = (1..).zip(self.root_costs).map(|(k, cost)| (k, cost + price * k as f32));
+        let cheapest = with_price.min_by(|(_, a), (_, b)| a.total_cmp(b));
+        self.standing_for([(0, cheapest.map_or(1, |(k, _)| k))])
     }
 
     /// The children that a node of the tree has when it becomes a node.
@@ -140,20 +163,19 @@ impl Collapse {
         [(r, k - left), (l, left)]
     }
 
-    /// The primitives of a subtree, left ones first.
-    pub fn primitives(&self, place: u32) -> impl Iterator<Item = u32> {
-        let mut open = vec![place];
-        std::iter::from_fn(move || {
-            while let Some(place) = open.pop() {
-                let node = &self.tree.nodes[place as usize];
-                if node.is_leaf() {
-                    return Some(self.tree.primitive_indices[node.first_index as usize]);
-                }
+    /// Calls `act` with the primitives of a subtree, left ones first. `open` is room to work in.
+    pub fn each_primitive(&self, place: u32, open: &mut Vec<u32>, mut act: impl FnMut(u32)) {
+        open.clear();
+        open.push(place);
+        while let Some(place) = open.pop() {
+            let node = &self.tree.nodes[place as usize];
+            if node.is_leaf() {
+                act(primitive(self.tree, node));
+            } else {
                 let [left, right] = halves(node);
                 open.extend([right, left]);
             }
-            None
-        })
+        }
     }
 
     /// The box around a subtree.
@@ -179,15 +201,21 @@ fn halves(node: &Bvh2Node) -> [u32; 2] {
     [node.first_index, node.first_index + 1]
 }
 
-fn parents_first(tree: &Bvh2) -> Vec<u32> {
-    let mut order = Vec::with_capacity(tree.nodes.len());
-    let mut open = vec![0];
-    while let Some(place) = open.pop() {
-        order.push(place);
+/// The primitive of a leaf.
+fn primitive(tree: &Bvh2, leaf: &Bvh2Node) -> u32 {
+    tree.primitive_indices[leaf.first_index as usize]
+}
+
+/// Lists all nodes, parents before children.
+fn parents_first(tree: &Bvh2, order: &mut Vec<u32>) {
+    order.clear();
+    order.push(0);
+    let mut next = 0;
+    while let Some(&place) = order.get(next) {
+        next += 1;
         let node = &tree.nodes[place as usize];
         if !node.is_leaf() {
-            open.extend(halves(node));
+            order.extend(halves(node));
         }
     }
-    order
 }

@@ -9,12 +9,14 @@
 mod aabb;
 mod batch;
 mod beam;
+mod binary;
 mod build;
 mod bundle;
 mod collapse;
 mod frustum;
 mod hit;
 mod lanes;
+mod layout;
 mod needle;
 mod node;
 mod packet;
@@ -22,8 +24,11 @@ mod parallel;
 mod part;
 mod path;
 mod slabs;
+mod sort;
+mod source;
 mod split;
 mod stack;
+mod top;
 mod triangles;
 mod walk;
 

@@ -38,13 +38,9 @@ impl Child {
     /// The triangle at the first place, which no ray hits. Only rays that are not numbers see it.
     pub const NOTHING: u32 = LEAF;
 
-    /// The child in a part whose nodes and triangles were moved up by so many.
-    pub fn moved(bits: u32, nodes: usize, triangles: usize) -> u32 {
-        match bits {
-            Self::NOTHING => bits,
-            bits if bits & LEAF == 0 => bits + nodes as u32,
-            bits => bits + triangles as u32,
-        }
+    /// The child in a part whose nodes were moved up by so many.
+    pub fn moved(bits: u32, nodes: usize) -> u32 {
+        if bits & LEAF == 0 { bits + nodes as u32 } else { bits }
     }
 
     pub fn leaf(range: Range<usize>) -> u32 {

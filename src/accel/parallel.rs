@@ -1,17 +1,34 @@
-//! Work on all processors.
+//! Work on several threads.
 
+use std::num::NonZeroUsize;
 use std::sync::Mutex;
 use std::thread;
 
-/// `act` of each item, in the order of the items. They are taken by as many threads as the system offers.
-pub fn map<T: Send, R: Send>(items: Vec<T>, act: impl Fn(T) -> R + Sync) -> Vec<R> {
-    let threads = thread::available_parallelism().map_or(1, usize::from).min(items.len());
+/// As many threads as the system offers.
+pub fn available() -> NonZeroUsize {
+    thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
+}
+
+/// `act` of each item, in the order of the items. They are taken one by one by so many threads, each of
+/// which has a workshop of its own that serves one item after another.
+pub fn map<T: Send, W, R: Send>(
+    threads: NonZeroUsize,
+    items: Vec<T>,
+    workshop: impl Fn() -> W + Sync,
+    act: impl Fn(&mut W, T) -> R + Sync,
+) -> Vec<R> {
+    let threads = threads.get().min(items.len());
     if threads <= 1 {
-        return items.into_iter().map(act).collect();
+        let mut workshop = workshop();
+        return items.into_iter().map(|item| act(&mut workshop, item)).collect();
     }
     let waiting = Mutex::new(items.into_iter().enumerate());
     let next = || waiting.lock().expect("no thread panics with the lock").next();
-    let work = || std::iter::from_fn(&next).map(|(i, item)| (i, act(item))).collect::<Vec<_>>();
+    let work = || {
+        let mut workshop = workshop();
+        let each = std::iter::from_fn(&next).map(|(i, item)| (i, act(&mut workshop, item)));
+        each.collect::<Vec<_>>()
+    };
     let mut results: Vec<(usize, R)> = thread::scope(|scope| {
         let workers: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
         let mut results = work();

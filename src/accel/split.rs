@@ -1,126 +1,174 @@
-//! Large scenes in parts, whose trees are built apart.
+//! [`Cuts`]: where a large scene is cut into parts.
 
 use glam::Vec3A;
+use obvhs::aabb::Aabb;
 
-use super::parallel;
-use super::triangles::Triangle;
-
-/// Scenes with fewer triangles are built in one piece.
-const LARGE: usize = 1 << 15;
-
-/// Eight parts: the root has two children for each, more for those that it pays most for.
-const HALVINGS: u32 = 3;
-
-/// So many triangles say where to halve all of them.
-const SAMPLES: usize = 1 << 13;
-const BINS: usize = 32;
-
-/// The triangles, moved such that those of each part follow one another.
-pub fn split(triangles: &mut [Triangle]) -> Vec<&mut [Triangle]> {
-    let halvings = if triangles.len() < LARGE { 0 } else { HALVINGS };
-    let mut parts = vec![triangles];
-    for _ in 0..halvings {
-        parts = parallel::map(parts, |part| {
-            let middle = halve(part);
-            let (left, right) = part.split_at_mut(middle);
-            [left, right]
-        })
-        .into_iter()
-        .flatten()
-        .filter(|part| !part.is_empty())
-        .collect();
-    }
-    parts
+/// Planes that cut space into parts, chosen by some of the triangles.
+pub struct Cuts {
+    cuts: Vec<Cut>,
+    /// The most planes on the way to a part.
+    depth: usize,
+    parts: usize,
+    usual_area: f32,
 }
 
-/// Moves the triangles to two sides of the plane that is cheapest by the surface area heuristic, judged by
-/// some of them (Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies"); how many are on
-/// the first side.
-fn halve(triangles: &mut [Triangle]) -> usize {
-    let step = triangles.len().div_ceil(SAMPLES).max(1);
-    let samples = || triangles.iter().step_by(step);
-    let middles = samples().map(middle).fold(Bounds::EMPTY, Bounds::including);
+/// A plane, or where there is none a part.
+#[derive(Clone, Copy)]
+struct Cut {
+    axis: usize,
+    /// NaN in a part, above which nothing lies.
+    plane: f32,
+    /// The cut below the plane, which the one above it follows; in a part, itself.
+    below: u32,
+    part: u32,
+}
+
+/// What is cut: boxes, which cut stands for them, and how many are above that.
+struct Piece<'a> {
+    boxes: &'a mut [Aabb],
+    place: u32,
+    level: usize,
+}
+
+const BINS: usize = 32;
+
+impl Cuts {
+    /// Cuts the boxes into at most so many parts, always the one that has the most of them.
+    pub fn new(boxes: &mut [Aabb], parts: usize) -> Self {
+        let mut cuts = vec![Cut::none(0)];
+        let mut waiting = vec![Piece { boxes, place: 0, level: 0 }];
+        let mut whole = Vec::new();
+        while whole.len() + waiting.len() < parts {
+            let largest = (0..waiting.len()).max_by_key(|&i| waiting[i].boxes.len());
+            let Some(piece) = largest.map(|largest| waiting.swap_remove(largest)) else { break };
+            let Some((axis, plane)) = cheapest(piece.boxes) else {
+                whole.push(piece);
+                continue;
+            };
+            let below = cuts.len() as u32;
+            cuts.extend([Cut::none(below), Cut::none(below + 1)]);
+            cuts[piece.place as usize] = Cut { axis, plane, below, part: 0 };
+            let left = partition(piece.boxes, |b| middle(b)[axis] < plane);
+            let (left, right) = piece.boxes.split_at_mut(left);
+            let level = piece.level + 1;
+            waiting.push(Piece { boxes: left, place: below, level });
+            waiting.push(Piece { boxes: right, place: below + 1, level });
+        }
+        whole.extend(waiting);
+        let depth = whole.iter().map(|piece| piece.level).max().unwrap_or(0);
+        let mut areas: Vec<f32> =
+            whole.iter().map(|piece| around(piece.boxes).half_area()).collect();
+        areas.sort_by(f32::total_cmp);
+        let usual_area = areas[areas.len() / 2];
+        let parts = number_parts(&mut cuts);
+        Self { cuts, depth, parts, usual_area }
+    }
+
+    /// How many parts there are.
+    pub fn parts(&self) -> usize {
+        self.parts
+    }
+
+    /// Half of the surface area of a part's box, the median.
+    pub fn usual_area(&self) -> f32 {
+        self.usual_area
+    }
+
+    /// The parts that boxes belong to. Each step down waits for the last one, but not for those of other boxes.
+    pub fn parts_of<const N: usize>(&self, boxes: &[Aabb; N]) -> [u32; N] {
+        let middles = boxes.map(|bounds| middle(&bounds).to_array());
+        let mut places = [0; N];
+        // As many steps for all, the last ones on the spot.
+        for _ in 0..self.depth {
+            for (place, middle) in places.iter_mut().zip(&middles) {
+                let cut = &self.cuts[*place as usize];
+                *place = cut.below + u32::from(middle[cut.axis] >= cut.plane);
+            }
+        }
+        places.map(|place| self.cuts[place as usize].part)
+    }
+}
+
+impl Cut {
+    fn none(place: u32) -> Self {
+        Self { axis: 0, plane: f32::NAN, below: place, part: 0 }
+    }
+}
+
+/// Parts next to each other get numbers next to each other. How many there are.
+fn number_parts(cuts: &mut [Cut]) -> usize {
+    let mut parts = 0;
+    let mut open = vec![0];
+    while let Some(place) = open.pop() {
+        let cut = &mut cuts[place as usize];
+        if cut.below == place {
+            cut.part = parts;
+            parts += 1;
+        } else {
+            open.extend([cut.below + 1, cut.below]);
+        }
+    }
+    parts as usize
+}
+
+/// The plane that is cheapest by the surface area heuristic (Wald 2007, "On fast Construction of SAH-based
+/// Bounding Volume Hierarchies"), if there is any with boxes on both sides.
+fn cheapest(boxes: &[Aabb]) -> Option<(usize, f32)> {
+    let middles = boxes.iter().map(middle).fold(Aabb::empty(), |mut all, m| *all.extend(m));
     let extent = middles.max - middles.min;
-    let mut best = (f32::INFINITY, 0, 0);
+    let mut best = (f32::INFINITY, None);
     for axis in (0..3).filter(|&axis| extent[axis] > 0.0) {
-        let mut bins = [(0.0_f32, Bounds::EMPTY); BINS];
-        for triangle in samples() {
-            let (count, bounds) = &mut bins[bin(triangle, axis, &middles)];
+        let mut bins = [(0.0_f32, Aabb::empty()); BINS];
+        for one in boxes {
+            let place = (middle(one)[axis] - middles.min[axis]) / extent[axis];
+            let (count, bounds) = &mut bins[((place * BINS as f32) as usize).min(BINS - 1)];
             *count += 1.0;
-            *bounds = triangle.corners.iter().fold(*bounds, |b, &p| b.including(p.into()));
+            *bounds = bounds.union(one);
         }
         // The cost of all bins up to each, from both ends.
-        let sweep = |bins: &mut dyn Iterator<Item = &(f32, Bounds)>| -> Vec<f32> {
-            let all = bins.scan((0.0, Bounds::EMPTY), |(count, bounds), (more, also)| {
-                *count += more;
-                *bounds = bounds.union(also);
-                Some(*count * bounds.half_area())
-            });
-            all.collect()
-        };
-        let (left, right) = (sweep(&mut bins.iter()), sweep(&mut bins.iter().rev()));
+        let (left, right) = (costs(bins.iter()), costs(bins.iter().rev()));
         for split in 1..BINS {
             let cost = left[split - 1] + right[BINS - 1 - split];
             if cost < best.0 {
-                best = (cost, axis, split);
+                let plane = middles.min[axis] + extent[axis] * (split as f32 / BINS as f32);
+                best = (cost, Some((axis, plane)));
             }
         }
     }
-    let (cost, axis, split) = best;
-    if cost == f32::INFINITY {
-        return triangles.len() / 2;
+    best.1.filter(|&(axis, plane)| {
+        let is_left = |b: &Aabb| middle(b)[axis] < plane;
+        boxes.iter().any(is_left) && !boxes.iter().all(is_left)
+    })
+}
+
+fn around(boxes: &[Aabb]) -> Aabb {
+    boxes.iter().fold(Aabb::empty(), |all, one| all.union(one))
+}
+
+fn costs<'a>(bins: impl Iterator<Item = &'a (f32, Aabb)>) -> [f32; BINS] {
+    let (mut count, mut bounds) = (0.0, Aabb::empty());
+    let mut costs = [0.0; BINS];
+    for (cost, (more, also)) in costs.iter_mut().zip(bins) {
+        count += more;
+        bounds = bounds.union(also);
+        *cost = if count > 0.0 { count * bounds.half_area() } else { 0.0 };
     }
-    partition(triangles, |triangle| bin(triangle, axis, &middles) < split)
+    costs
 }
 
-/// Twice the middle of a triangle's box.
-fn middle(triangle: &Triangle) -> Vec3A {
-    let [a, b, c] = triangle.corners.map(Vec3A::from);
-    a.min(b).min(c) + a.max(b).max(c)
+/// Twice the middle of a box.
+fn middle(bounds: &Aabb) -> Vec3A {
+    bounds.min + bounds.max
 }
 
-fn bin(triangle: &Triangle, axis: usize, middles: &Bounds) -> usize {
-    let extent = middles.max[axis] - middles.min[axis];
-    let place = (middle(triangle)[axis] - middles.min[axis]) / extent;
-    ((place * BINS as f32) as usize).min(BINS - 1)
-}
-
-/// Moves those that `is_left` to the front; how many they are.
-pub fn partition(triangles: &mut [Triangle], is_left: impl Fn(&Triangle) -> bool) -> usize {
-    let (mut left, mut right) = (0, triangles.len());
-    loop {
-        while left < right && is_left(&triangles[left]) {
+/// Moves those that are to the left to the front; how many they are.
+fn partition(boxes: &mut [Aabb], is_left: impl Fn(&Aabb) -> bool) -> usize {
+    let mut left = 0;
+    for i in 0..boxes.len() {
+        if is_left(&boxes[i]) {
+            boxes.swap(left, i);
             left += 1;
         }
-        while left < right && !is_left(&triangles[right - 1]) {
-            right -= 1;
-        }
-        if left == right {
-            return left;
-        }
-        triangles.swap(left, right - 1);
     }
-}
-
-#[derive(Clone, Copy)]
-struct Bounds {
-    min: Vec3A,
-    max: Vec3A,
-}
-
-impl Bounds {
-    const EMPTY: Self = Self { min: Vec3A::INFINITY, max: Vec3A::NEG_INFINITY };
-
-    fn including(self, p: Vec3A) -> Self {
-        Self { min: self.min.min(p), max: self.max.max(p) }
-    }
-
-    fn union(self, other: &Self) -> Self {
-        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
-    }
-
-    fn half_area(self) -> f32 {
-        let size = (self.max - self.min).max(Vec3A::ZERO);
-        size.x * size.y + size.y * size.z + size.z * size.x
-    }
+    left
 }

@@ -1,6 +1,7 @@
 //! [`Triangles`]: what leaves hold.
 
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
+use obvhs::aabb::Aabb;
 
 use super::lanes::{LANES, Lanes, Mask};
 use super::node::Child;
@@ -10,6 +11,13 @@ use super::node::Child;
 pub struct Triangle {
     pub corners: [Vec3; 3],
     pub number: u32,
+}
+
+impl Triangle {
+    pub fn bounds(&self) -> Aabb {
+        let [a, b, c] = self.corners.map(Vec3A::from);
+        Aabb { min: a.min(b).min(c), max: a.max(b).max(c) }
+    }
 }
 
 /// The triangles of all leaves, leaf after leaf.
@@ -23,6 +31,14 @@ pub struct Triangles {
     numbers: Vec<u32>,
 }
 
+/// Room for triangles that follow one another, which is filled leaf by leaf.
+pub struct TrianglesMut<'a> {
+    columns: &'a mut [f32],
+    numbers: &'a mut [u32],
+    /// The place of the next triangle among all.
+    first: usize,
+}
+
 /// The columns of one leaf.
 #[derive(Clone, Copy)]
 pub struct Leaf<'a> {
@@ -33,38 +49,29 @@ pub struct Leaf<'a> {
 const COLUMNS: usize = 9;
 
 impl Triangles {
-    /// No triangles yet, but for one that no ray hits; see [`Child::NOTHING`].
-    pub fn with_capacity(count: usize) -> Self {
-        let mut columns = Vec::with_capacity(COLUMNS * (count + 1) + LANES);
-        columns.extend([f32::NAN; COLUMNS]);
-        let mut numbers = Vec::with_capacity(count + 1);
-        numbers.push(u32::MAX);
+    /// Room for so many triangles, and before them one that no ray hits; see [`Child::NOTHING`].
+    pub fn with_room(count: usize) -> Self {
+        // The last columns of the last leaf can be loaded as whole vectors.
+        let mut columns = vec![0.0; COLUMNS * (count + 1) + LANES];
+        columns[..COLUMNS].fill(f32::NAN);
+        let mut numbers = vec![0; count + 1];
+        numbers[0] = u32::MAX;
         Self { columns, numbers }
     }
 
-    /// Adds a leaf; what a node refers to it by.
-    pub fn push(&mut self, leaf: &[Triangle]) -> u32 {
-        for corner in 0..3 {
-            for axis in 0..3 {
-                self.columns.extend(leaf.iter().map(|t| t.corners[corner][axis]));
-            }
+    /// Room for so many triangles each, one after another.
+    pub fn pieces(&mut self, counts: &[usize]) -> Vec<TrianglesMut<'_>> {
+        let (mut columns, mut numbers) = (&mut self.columns[COLUMNS..], &mut self.numbers[1..]);
+        let mut first = 1;
+        let mut pieces = Vec::with_capacity(counts.len());
+        for &count in counts {
+            let (columns_here, more_columns) = columns.split_at_mut(COLUMNS * count);
+            let (numbers_here, more_numbers) = numbers.split_at_mut(count);
+            pieces.push(TrianglesMut { columns: columns_here, numbers: numbers_here, first });
+            (columns, numbers) = (more_columns, more_numbers);
+            first += count;
         }
-        let first = self.numbers.len();
-        self.numbers.extend(leaf.iter().map(|t| t.number));
-        Child::leaf(first..self.numbers.len())
-    }
-
-    /// Adds the leaves of another; by how much its places moved up.
-    pub fn append(&mut self, other: &Self) -> usize {
-        let moved = self.len();
-        self.columns.extend_from_slice(&other.columns[COLUMNS..]);
-        self.numbers.extend_from_slice(&other.numbers[1..]);
-        moved
-    }
-
-    /// Adds what the last columns of the last leaf need to be loaded as whole vectors.
-    pub fn finish(&mut self) {
-        self.columns.extend([0.0; LANES]);
+        pieces
     }
 
     /// How many there are that rays can hit.
@@ -85,6 +92,29 @@ impl Triangles {
     pub fn leaf(&self, first: u32, count: usize) -> Leaf<'_> {
         let first = COLUMNS * first as usize;
         Leaf { columns: &self.columns[first..first + COLUMNS * count + LANES], count }
+    }
+}
+
+impl TrianglesMut<'_> {
+    /// Adds a leaf; what a node refers to it by.
+    pub fn push(&mut self, leaf: &[Triangle]) -> u32 {
+        let columns = self.columns.split_off_mut(..COLUMNS * leaf.len()).expect("room");
+        let mut columns = columns.chunks_exact_mut(leaf.len());
+        for corner in 0..3 {
+            for axis in 0..3 {
+                let column = columns.next().expect("nine columns");
+                for (x, triangle) in column.iter_mut().zip(leaf) {
+                    *x = triangle.corners[corner][axis];
+                }
+            }
+        }
+        let numbers = self.numbers.split_off_mut(..leaf.len()).expect("room");
+        for (number, triangle) in numbers.iter_mut().zip(leaf) {
+            *number = triangle.number;
+        }
+        let first = self.first;
+        self.first += leaf.len();
+        Child::leaf(first..self.first)
     }
 }
 

@@ -68,6 +68,21 @@ fn surfaces_give_what_a_loop_gives() {
     surfaces(30_000, 4_000_000);
 }
 
+/// Large scenes are built in parts: here about eight, one of which has a large triangle. Caught: nodes of a
+/// part that refer to those of another; a part left out of the root.
+#[test]
+fn large_scenes_give_what_a_loop_gives() {
+    let mut rng = Rng::new(846, 0);
+    let small = (0..70_000).map(|_| {
+        let at = rng.point(1.0);
+        [(); 3].map(|()| at + 0.02 * rng.direction())
+    });
+    let small: Vec<[Vec3; 3]> = small.collect();
+    let large =
+        [[Vec3::new(-3.0, -1.0, -3.0), Vec3::new(3.0, -1.0, -3.0), Vec3::new(0.0, -1.0, 5.0)]];
+    assert_scene(&[soup(&large), soup(&small)], 847, 5_000_000, 500, "parts");
+}
+
 /// As above, ten times as many rays.
 #[test]
 #[ignore = "takes half a minute"]
