@@ -201,11 +201,3 @@ mod tests {
         }
     }
 }
-
-/// The mean area of a face of the boxes of leaves; 0 without any.
-fn grain(nodes: &[Node]) -> f32 {
-    let areas = nodes.iter().flat_map(Node::leaf_areas);
-    let (sum, count) =
-        areas.fold((0.0, 0.0), |(sum, count), area| (sum + f64::from(area), count + 1.0_f64));
-    (sum / (3.0 * count.max(1.0))) as f32
-}
