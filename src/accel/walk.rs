@@ -182,7 +182,7 @@ impl Accel {
 /// every box would be.
 #[inline(always)]
 fn is_sound(ray: &Ray, sheared: &ShearedRay) -> bool {
-    // What is not finite becomes NaN, which outlasts all that is added.
+    // 0 times what is not finite is NaN, which outlasts all that is added.
     let o = ray.o.x + ray.o.y + ray.o.z;
-    !(o - o + sheared.shear[0] + sheared.shear[1]).is_nan()
+    !(0.0 * o + sheared.shear[0] + sheared.shear[1]).is_nan()
 }
