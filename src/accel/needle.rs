@@ -77,16 +77,17 @@ pub fn hit(
     t_min: f32,
     t_max: f32,
 ) -> Option<TriangleHit> {
-    sheared.intersect_at(|corner, axis| leaf.coordinate(lane, corner, axis), t_min, t_max)
+    sheared.intersect_at(|axis| leaf.coordinates(lane, axis), t_min, t_max)
 }
 
 /// Twice the signed area of the triangle (origin, p, q) seen along z.
 #[inline(always)]
-fn edge<L: Lanes>(p: [L; 3], q: [L; 3]) -> L {
+pub fn edge<L: Lanes>(p: [L; 3], q: [L; 3]) -> L {
     p[0].mul(q[1]).sub(p[1].mul(q[0]))
 }
 
+/// x or y of three points, after z was added in proportion.
 #[inline(always)]
-fn sheared<L: Lanes>([a, b, c]: [L; 3], shear: L, z: [L; 3]) -> [L; 3] {
+pub fn sheared<L: Lanes>([a, b, c]: [L; 3], shear: L, z: [L; 3]) -> [L; 3] {
     [a.add(shear.mul(z[0])), b.add(shear.mul(z[1])), c.add(shear.mul(z[2]))]
 }

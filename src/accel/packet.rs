@@ -3,7 +3,7 @@
 use glam::Vec3A;
 
 use super::lanes::{LANES, Lanes, Mask, splat3};
-use super::needle::Needle;
+use super::needle::{Needle, edge, sheared};
 use super::node::Node;
 use super::triangles::Leaf;
 use super::{Accel, Hit};
@@ -128,8 +128,11 @@ impl<'a, L: Lanes> Packet<'a, L> {
     /// Tests one triangle of a leaf; which rays meet it before what they met so far.
     #[inline(always)]
     pub fn meet(&mut self, leaf: Leaf, lane: u32, number: u32) -> Mask {
-        let (a, b, c) =
-            (self.corner(leaf, lane, 0), self.corner(leaf, lane, 1), self.corner(leaf, lane, 2));
+        // The corners in the space of each ray, where it starts at the origin and runs along z.
+        let z = self.moved(leaf, lane, 2);
+        let x = sheared(self.moved(leaf, lane, 0), self.shear[0], z);
+        let y = sheared(self.moved(leaf, lane, 1), self.shear[1], z);
+        let (a, b, c) = ([x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]);
         let (e0, e1, e2) = (edge(b, c), edge(c, a), edge(a, b));
         let zero = L::splat(0.0);
         let unsure = e0.eq(zero) | e1.eq(zero) | e2.eq(zero);
@@ -154,14 +157,12 @@ impl<'a, L: Lanes> Packet<'a, L> {
         all
     }
 
-    /// A corner in the space of each ray, where it starts at the origin and runs along z.
+    /// One coordinate of each corner of a triangle, seen from the origin of each ray.
     #[inline(always)]
-    fn corner(&self, leaf: Leaf, lane: u32, corner: usize) -> [L; 3] {
-        let [x, y, z] = self.axes;
-        let z = L::splat(leaf.coordinate(lane, corner, z)).sub(self.o[2]);
-        let x = L::splat(leaf.coordinate(lane, corner, x)).sub(self.o[0]);
-        let y = L::splat(leaf.coordinate(lane, corner, y)).sub(self.o[1]);
-        [x.add(self.shear[0].mul(z)), y.add(self.shear[1].mul(z)), z]
+    fn moved(&self, leaf: Leaf, lane: u32, i: usize) -> [L; 3] {
+        let [a, b, c] = leaf.coordinates(lane, self.axes[i]);
+        let o = self.o[i];
+        [L::splat(a).sub(o), L::splat(b).sub(o), L::splat(c).sub(o)]
     }
 
     #[inline(always)]
@@ -192,7 +193,7 @@ impl<'a, L: Lanes> Packet<'a, L> {
         for i in (0..Mask::BITS).filter(|i| rays >> i & 1 == 1) {
             let ray = self.ray(i);
             let hit = ShearedRay::new(&ray).intersect_at(
-                |corner, axis| leaf.coordinate(lane, corner, axis),
+                |axis| leaf.coordinates(lane, axis),
                 ray.t_min,
                 ray.t_max,
             );
@@ -269,12 +270,6 @@ impl<'a, L: Lanes> Packet<'a, L> {
             }
         }
     }
-}
-
-/// Twice the signed area of the triangle (origin, p, q) seen along z.
-#[inline(always)]
-fn edge<L: Lanes>(p: [L; 3], q: [L; 3]) -> L {
-    p[0].mul(q[1]).sub(p[1].mul(q[0]))
 }
 
 /// The bound on the error of the depth, as for one triangle.

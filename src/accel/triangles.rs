@@ -141,9 +141,11 @@ impl<'a> Leaf<'a> {
         Mask::MAX >> ((LANES - self.count) % LANES)
     }
 
-    /// One coordinate of one corner of one triangle.
+    /// One coordinate of each corner of one triangle.
     #[inline(always)]
-    pub fn coordinate(self, lane: u32, corner: usize, axis: usize) -> f32 {
-        self.columns[(3 * corner + axis) * self.count + lane as usize]
+    pub fn coordinates(self, lane: u32, axis: usize) -> [f32; 3] {
+        let corner = 3 * self.count;
+        let column = &self.columns[axis * self.count + lane as usize..][..=2 * corner];
+        [column[0], column[corner], column[2 * corner]]
     }
 }

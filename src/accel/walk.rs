@@ -1,7 +1,7 @@
 //! How one ray walks the tree.
 
 use super::Accel;
-use super::lanes::{LANES, Lanes, Mask};
+use super::lanes::{LANES, Lanes};
 use super::needle::{Needle, hit};
 use super::node::Child;
 use super::slabs::Slabs;
@@ -62,7 +62,7 @@ impl Accel {
             let mut child;
             if lanes != 0 {
                 // The nearest child is the last lane; the others wait.
-                let lane = Mask::BITS - 1 - lanes.leading_zeros();
+                let lane = u32::from(lanes).ilog2();
                 child = node.children[(lane ^ slabs.flip) as usize % LANES];
                 let others = lanes ^ 1 << lane;
                 waiting = enters.push(stack, waiting, others, &node.children, slabs.flip);

@@ -82,15 +82,15 @@ impl ShearedRay {
     #[inline]
     pub fn intersect(&self, corners: &[Vec3; 3], t_min: f32, t_max: f32) -> Option<TriangleHit> {
         let corners = corners.map(|corner| corner.to_array());
-        self.intersect_at(|corner, axis| corners[corner][axis], t_min, t_max)
+        self.intersect_at(|axis| corners.map(|corner| corner[axis]), t_min, t_max)
     }
 
-    /// [`ShearedRay::intersect`] for corners that are kept in any way: `coordinate` tells them by
-    /// corner and axis.
+    /// [`ShearedRay::intersect`] for corners that are kept in any way: `coordinates` tells one of each
+    /// corner.
     #[inline]
     pub(crate) fn intersect_at(
         &self,
-        coordinate: impl Fn(usize, usize) -> f32,
+        coordinates: impl Fn(usize) -> [f32; 3],
         t_min: f32,
         t_max: f32,
     ) -> Option<TriangleHit> {
@@ -98,8 +98,7 @@ impl ShearedRay {
         // and runs along z.
         let along = |i: usize| {
             let axis = self.axes[i];
-            let p = Vec3A::new(coordinate(0, axis), coordinate(1, axis), coordinate(2, axis));
-            p - Vec3A::splat(self.o[i])
+            Vec3A::from(coordinates(axis)) - Vec3A::splat(self.o[i])
         };
         let (x, y, z) = (along(0), along(1), along(2));
         let x = x + self.shear[0] * z;
