@@ -62,13 +62,13 @@ impl Accel {
                                 self.walk_on(stack, packet, rays, Start { node, waiting }, any_hit);
                         }
                     }
-                    Child::Leaf { first, count } => {
-                        let leaf = self.triangles.leaf(first, count);
+                    Child::Leaf { place, vertices } => {
+                        let leaf = self.triangles.leaf(place, vertices);
                         for (i, (packet, rays)) in packets.iter_mut().zip(rays).enumerate() {
                             let met = if rays.count_ones() <= FEW_AT_LEAF {
-                                self.meet_few(packet, rays, leaf, first)
+                                self.meet_few(packet, rays, leaf)
                             } else {
-                                self.meet_all(packet, frustum.meets(leaf, i), leaf, first)
+                                self.meet_all(packet, frustum.meets(leaf, i), leaf)
                             };
                             any |= met != 0;
                             if any_hit && met != 0 {
@@ -114,13 +114,7 @@ impl Accel {
 
     /// Tests a few rays of a packet, each against all triangles of a leaf at once; which met something.
     #[inline(always)]
-    fn meet_few<L: Lanes>(
-        &self,
-        packet: &mut Packet<L>,
-        mut rays: Mask,
-        leaf: Leaf,
-        first: u32,
-    ) -> Mask {
+    fn meet_few<L: Lanes>(&self, packet: &mut Packet<L>, mut rays: Mask, leaf: Leaf) -> Mask {
         let (mut seen, mut all) = (0, 0);
         while rays != 0 {
             let mut met = packet.meets(leaf, rays.trailing_zeros()) & !seen;
@@ -129,7 +123,7 @@ impl Accel {
             while met != 0 {
                 let lane = met.trailing_zeros();
                 met &= met - 1;
-                all |= packet.meet(leaf, lane, self.triangles.number(first + lane));
+                all |= packet.meet(leaf, lane, leaf.number(lane));
             }
         }
         all
@@ -137,18 +131,12 @@ impl Accel {
 
     /// Tests all rays of a packet at once against some triangles of a leaf; which met something.
     #[inline(always)]
-    fn meet_all<L: Lanes>(
-        &self,
-        packet: &mut Packet<L>,
-        mut lanes: Mask,
-        leaf: Leaf,
-        first: u32,
-    ) -> Mask {
+    fn meet_all<L: Lanes>(&self, packet: &mut Packet<L>, mut lanes: Mask, leaf: Leaf) -> Mask {
         let mut all = 0;
         while lanes != 0 {
             let lane = lanes.trailing_zeros();
             lanes &= lanes - 1;
-            all |= packet.meet(leaf, lane, self.triangles.number(first + lane));
+            all |= packet.meet(leaf, lane, leaf.number(lane));
         }
         all
     }

@@ -54,21 +54,15 @@ impl Accel {
         // Sort the triangles into parts.
         let source = Source::new(meshes);
         let Sorted { numbers, counts, price } = sort(&source, threads);
-        // Build each part, with its triangles where they are to be.
-        let mut triangles = Triangles::with_room(numbers.len());
+        // Build each part.
         let mut rest = &numbers[..];
-        let tasks =
-            triangles.pieces(&counts).into_iter().zip(counts).map(|(place, count)| {
-                (rest.split_off(..count).expect("as many as there are"), place)
+        let tasks = counts.into_iter().map(|count| rest.split_off(..count).expect("all numbers"));
+        let parts =
+            parallel::map(threads, tasks.collect(), Workshop::default, |workshop, numbers| {
+                Part::new(workshop, &source, numbers, price)
             });
-        let parts = parallel::map(
-            threads,
-            tasks.collect(),
-            Workshop::default,
-            |workshop, (numbers, place)| Part::new(workshop, &source, numbers, place, price),
-        );
         // Put them below one root.
-        let (nodes, depth) = join(&parts);
+        let (nodes, triangles, depth) = join(&parts);
         let bounds = nodes.first().map_or(Aabb::EMPTY, Node::bounds);
         Self {
             grain: grain(&nodes),
@@ -122,10 +116,11 @@ impl Accel {
     }
 }
 
-/// The nodes of all parts and of the tree above them, the root first, and how deep that is.
-fn join(parts: &[Part]) -> (Vec<Node>, usize) {
+/// The nodes of all parts and of the tree above them, the root first, their triangles, and how deep that is.
+fn join(parts: &[Part]) -> (Vec<Node>, Triangles, usize) {
+    let mut triangles = Triangles::new();
     if parts.is_empty() {
-        return (Vec::new(), 0);
+        return (Vec::new(), triangles, 0);
     }
     let pieces: usize = parts.iter().map(|part| part.roots.len()).sum();
     let count: usize = parts.iter().map(|part| part.nodes.len()).sum();
@@ -133,9 +128,10 @@ fn join(parts: &[Part]) -> (Vec<Node>, usize) {
     let mut nodes = Vec::with_capacity(1 + count + pieces / 2);
     nodes.push(Node::EMPTY);
     let mut roots = Vec::with_capacity(pieces);
+    triangles.reserve(parts.iter().map(|part| &part.triangles));
     for part in parts {
-        let first = nodes.len();
-        let moved = |bits| Child::moved(bits, first);
+        let (first, leaves) = (nodes.len(), triangles.append(&part.triangles));
+        let moved = |bits| Child::moved(bits, first, leaves);
         nodes.extend(
             part.nodes
                 .iter()
@@ -143,8 +139,9 @@ fn join(parts: &[Part]) -> (Vec<Node>, usize) {
         );
         roots.extend(part.roots.iter().map(|root| Root { bits: moved(root.bits), ..*root }));
     }
+    triangles.finish();
     let depth = top(&roots, &mut nodes);
-    (nodes, depth)
+    (nodes, triangles, depth)
 }
 
 /// The mean area of a face of the boxes of leaves; 0 without any.

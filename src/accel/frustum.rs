@@ -174,13 +174,22 @@ impl<L: Lanes> Frustum<L> {
     #[inline(always)]
     pub fn meets(&self, leaf: Leaf, packet: usize) -> Mask {
         let sides = &self.of_packets[packet % PACKETS];
-        let z = self.moved(leaf, 2);
-        let is_before = z[0].max(z[1].max(z[2])).add(self.padding).lt(self.ends[0]);
-        let is_behind = self.ends[1].lt(z[0].min(z[1].min(z[2])).sub(self.padding));
-        !(is_before | is_behind)
-            & self.is_around(leaf, 0, z, sides)
-            & self.is_around(leaf, 1, z, sides)
-            & leaf.lanes()
+        let z = leaf.vertices::<L>(self.axes[2]).sub(self.base[2]);
+        let corners = leaf.corners::<L::Places>();
+        // How far within each bound a vertex is, and of each triangle the one that is farthest within.
+        let farthest = |within: L| {
+            let [a, b, c] = corners;
+            within.at(a).max(within.at(b).max(within.at(c)))
+        };
+        let out = L::splat(0.0).sub(self.padding);
+        let mut met = leaf.lanes();
+        met &= out.le(farthest(z.sub(self.ends[0]))) & out.le(farthest(self.ends[1].sub(z)));
+        for i in 0..2 {
+            let x = leaf.vertices::<L>(self.axes[i]).sub(self.base[i]);
+            met &= out.le(farthest(x.sub(sides.low[i].at(z))));
+            met &= out.le(farthest(sides.high[i].at(z).sub(x)));
+        }
+        met
     }
 
     /// From where to where the children reach along an axis.
@@ -197,25 +206,6 @@ impl<L: Lanes> Frustum<L> {
     fn overlaps(&self, node: &Node, i: usize, ends: [L; 2]) -> Mask {
         let [low, high] = self.extent(node, i);
         self.sides.low[i].least(ends).le(high) & low.le(self.sides.high[i].greatest(ends))
-    }
-
-    /// One coordinate of all corners, seen from the base.
-    #[inline(always)]
-    fn moved(&self, leaf: Leaf, i: usize) -> [L; 3] {
-        let [a, b, c] = leaf.columns::<L>(self.axes[i]);
-        [a.sub(self.base[i]), b.sub(self.base[i]), c.sub(self.base[i])]
-    }
-
-    /// Which triangles are not beside the frustum in x or y.
-    #[inline(always)]
-    fn is_around(&self, leaf: Leaf, i: usize, z: [L; 3], sides: &Sides) -> Mask {
-        let [a, b, c] = self.moved(leaf, i);
-        let (low, high) = (&sides.low[i], &sides.high[i]);
-        // How far each corner is on the inner side of either line.
-        let above = a.sub(low.at(z[0])).max(b.sub(low.at(z[1])).max(c.sub(low.at(z[2]))));
-        let below = high.at(z[0]).sub(a).max(high.at(z[1]).sub(b).max(high.at(z[2]).sub(c)));
-        let out = L::splat(0.0).sub(self.padding);
-        out.le(above) & out.le(below)
     }
 }
 

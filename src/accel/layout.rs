@@ -12,7 +12,7 @@ use super::node::{Child, Node};
 
 /// What the leaves of a tree hold.
 pub trait Contents {
-    /// How many items fit into a leaf.
+    /// How many items always fit into a leaf.
     const MOST: usize;
 
     /// How many items there are.
@@ -24,8 +24,8 @@ pub trait Contents {
     /// The box around an item.
     fn bounds(&self, item: u32) -> Aabb;
 
-    /// Makes a leaf: what nodes refer to it by, and how many nodes are below that.
-    fn leaf(&mut self, items: &[u32]) -> (u32, usize);
+    /// Makes a leaf, if the items fit: what nodes refer to it by, and how many nodes are below that.
+    fn leaf(&mut self, items: &[u32]) -> Option<(u32, usize)>;
 }
 
 /// What stands for a tree, or a piece of it, in the node above.
@@ -134,16 +134,20 @@ impl<C: Contents> Layout<'_, C> {
                 let Self { choices, contents, items, stack } = self;
                 items.clear();
                 choices.each_primitive(place, stack, |p| items.extend(contents.items(p)));
-                if items.len() <= C::MOST {
-                    return contents.leaf(items);
+                if items.len() <= LANES
+                    && let Some(leaf) = contents.leaf(items)
+                {
+                    return leaf;
                 }
                 hand_on(Below::Heap(items.clone()));
                 (Child::NOTHING, 0)
             }
-            Below::Heap(items) if items.len() <= C::MOST => self.contents.leaf(&items),
-            Below::Heap(_) => {
-                hand_on(child);
-                (Child::NOTHING, 0)
+            Below::Heap(ref items) => {
+                let leaf = if items.len() <= LANES { self.contents.leaf(items) } else { None };
+                leaf.unwrap_or_else(|| {
+                    hand_on(child);
+                    (Child::NOTHING, 0)
+                })
             }
         }
     }

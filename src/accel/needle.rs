@@ -38,13 +38,15 @@ impl<L: Lanes> Needle<L> {
     /// All lanes compute what [`ShearedRay::intersect`] computes, to the bit.
     #[inline(always)]
     pub fn meets(&self, leaf: Leaf, t_max: L) -> Option<Met<L>> {
-        // All corners in the space where the ray starts at the origin and runs along z.
-        let z = self.moved(leaf, 2);
-        let [x, y] = [self.moved(leaf, 0), self.moved(leaf, 1)];
-        let [x, y] = [sheared(x, self.shear[0], z), sheared(y, self.shear[1], z)];
-        let corner = |i: usize| [x[i], y[i], z[i]];
-        let (a, b, c) = (corner(0), corner(1), corner(2));
-        let (e0, e1, e2) = (edge(b, c), edge(c, a), edge(a, b));
+        // All vertices in the space where the ray starts at the origin and runs along z, and then what the
+        // corners are of them.
+        let z = leaf.vertices::<L>(self.axes[2]).sub(self.o[2]);
+        let x = leaf.vertices::<L>(self.axes[0]).sub(self.o[0]).add(self.shear[0].mul(z));
+        let y = leaf.vertices::<L>(self.axes[1]).sub(self.o[1]).add(self.shear[1].mul(z));
+        let [a, b, c] = leaf.corners::<L::Places>();
+        let (xa, xb, xc) = (x.at(a), x.at(b), x.at(c));
+        let (ya, yb, yc) = (y.at(a), y.at(b), y.at(c));
+        let (e0, e1, e2) = (edge(xb, yb, xc, yc), edge(xc, yc, xa, ya), edge(xa, ya, xb, yb));
         let zero = L::splat(0.0);
         let unsure = e0.eq(zero) | e1.eq(zero) | e2.eq(zero);
         let inside = zero.le(e0.min(e1.min(e2))) | e0.max(e1.max(e2)).le(zero);
@@ -53,18 +55,12 @@ impl<L: Lanes> Needle<L> {
             return None;
         }
         let determinant = e0.add(e1).add(e2);
-        let depth = e0.mul(a[2]).add(e1.mul(b[2])).add(e2.mul(c[2])).div(determinant);
+        let sum = e0.mul(z.at(a)).add(e1.mul(z.at(b))).add(e2.mul(z.at(c)));
+        let depth = sum.div(determinant);
         let t = depth.mul(self.shear[2]);
         let in_range = self.t_min.le(t) & t.le(t_max);
         let unsure = unsure & lanes;
         Some(Met { lanes: lanes & in_range | unsure, unsure, t })
-    }
-
-    /// One coordinate of all corners, seen from the origin of the ray.
-    #[inline(always)]
-    fn moved(&self, leaf: Leaf, i: usize) -> [L; 3] {
-        let [a, b, c] = leaf.columns::<L>(self.axes[i]);
-        [a.sub(self.o[i]), b.sub(self.o[i]), c.sub(self.o[i])]
     }
 }
 
@@ -77,17 +73,11 @@ pub fn hit(
     t_min: f32,
     t_max: f32,
 ) -> Option<TriangleHit> {
-    sheared.intersect_at(|axis| leaf.coordinates(lane, axis), t_min, t_max)
+    sheared.intersect_at(leaf.coordinates(lane), t_min, t_max)
 }
 
 /// Twice the signed area of the triangle (origin, p, q) seen along z.
 #[inline(always)]
-pub fn edge<L: Lanes>(p: [L; 3], q: [L; 3]) -> L {
-    p[0].mul(q[1]).sub(p[1].mul(q[0]))
-}
-
-/// x or y of three points, after z was added in proportion.
-#[inline(always)]
-pub fn sheared<L: Lanes>([a, b, c]: [L; 3], shear: L, z: [L; 3]) -> [L; 3] {
-    [a.add(shear.mul(z[0])), b.add(shear.mul(z[1])), c.add(shear.mul(z[2]))]
+pub fn edge<L: Lanes>(px: L, py: L, qx: L, qy: L) -> L {
+    px.mul(qy).sub(py.mul(qx))
 }

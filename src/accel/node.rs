@@ -1,7 +1,5 @@
 //! [`Node`], and what its children are.
 
-use std::ops::Range;
-
 use super::Aabb;
 use super::lanes::LANES;
 
@@ -18,34 +16,35 @@ pub struct Node {
     pub children: [u32; LANES],
 }
 
-/// What a child is, in 32 bits: the number of a node, or of up to sixteen triangles that follow one another.
+/// What a child is, in 32 bits: the number of a node, or a leaf's place and how many vertices it has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Child {
     Node(u32),
-    /// Triangles from `first` on.
-    Leaf {
-        first: u32,
-        count: usize,
-    },
+    Leaf { place: u32, vertices: usize },
 }
 
 const LEAF: u32 = 1 << 31;
-const COUNT_SHIFT: u32 = 27;
-/// How many triangles can be numbered.
-pub const MOST_TRIANGLES: usize = 1 << COUNT_SHIFT;
+const VERTICES_SHIFT: u32 = 27;
+const PLACES: u32 = 1 << VERTICES_SHIFT;
+/// How many triangles can be numbered: if each had a leaf, it would take two places.
+pub const MOST_TRIANGLES: usize = PLACES as usize / 2;
 
 impl Child {
-    /// The triangle at the first place, which no ray hits. Only rays that are not numbers see it.
+    /// The leaf at the first place, whose one triangle no ray hits. Only rays that are not numbers see it.
     pub const NOTHING: u32 = LEAF;
 
-    /// The child in a part whose nodes were moved up by so many.
-    pub fn moved(bits: u32, nodes: usize) -> u32 {
-        if bits & LEAF == 0 { bits + nodes as u32 } else { bits }
+    /// The child in a part whose nodes and leaves were moved up by so many.
+    pub fn moved(bits: u32, nodes: usize, leaves: usize) -> u32 {
+        match bits {
+            Self::NOTHING => bits,
+            bits if bits & LEAF == 0 => bits + nodes as u32,
+            bits => bits + leaves as u32,
+        }
     }
 
-    pub fn leaf(range: Range<usize>) -> u32 {
-        debug_assert!((1..=LANES).contains(&range.len()) && range.end <= MOST_TRIANGLES);
-        LEAF | (range.len() as u32 - 1) << COUNT_SHIFT | range.start as u32
+    pub fn leaf(place: usize, vertices: usize) -> u32 {
+        debug_assert!((1..=LANES).contains(&vertices) && place < PLACES as usize);
+        LEAF | (vertices as u32 - 1) << VERTICES_SHIFT | place as u32
     }
 
     #[inline(always)]
@@ -53,8 +52,8 @@ impl Child {
         if bits & LEAF == 0 {
             return Self::Node(bits);
         }
-        let count = (bits >> COUNT_SHIFT) as usize % LANES + 1;
-        Self::Leaf { first: bits % MOST_TRIANGLES as u32, count }
+        let vertices = (bits >> VERTICES_SHIFT) as usize % LANES + 1;
+        Self::Leaf { place: bits % PLACES, vertices }
     }
 }
 

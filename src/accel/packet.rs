@@ -3,7 +3,7 @@
 use glam::Vec3A;
 
 use super::lanes::{LANES, Lanes, Mask, splat3};
-use super::needle::{Needle, edge, sheared};
+use super::needle::{Needle, edge};
 use super::node::Node;
 use super::triangles::Leaf;
 use super::{Accel, Hit};
@@ -129,11 +129,16 @@ impl<'a, L: Lanes> Packet<'a, L> {
     #[inline(always)]
     pub fn meet(&mut self, leaf: Leaf, lane: u32, number: u32) -> Mask {
         // The corners in the space of each ray, where it starts at the origin and runs along z.
-        let z = self.moved(leaf, lane, 2);
-        let x = sheared(self.moved(leaf, lane, 0), self.shear[0], z);
-        let y = sheared(self.moved(leaf, lane, 1), self.shear[1], z);
+        let coordinates = leaf.coordinates(lane);
+        let z = self.moved(&coordinates, 2);
+        let x = sheared(self.moved(&coordinates, 0), self.shear[0], z);
+        let y = sheared(self.moved(&coordinates, 1), self.shear[1], z);
         let (a, b, c) = ([x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]);
-        let (e0, e1, e2) = (edge(b, c), edge(c, a), edge(a, b));
+        let (e0, e1, e2) = (
+            edge(x[1], y[1], x[2], y[2]),
+            edge(x[2], y[2], x[0], y[0]),
+            edge(x[0], y[0], x[1], y[1]),
+        );
         let zero = L::splat(0.0);
         let unsure = e0.eq(zero) | e1.eq(zero) | e2.eq(zero);
         let inside = (zero.le(e0.min(e1.min(e2))) | e0.max(e1.max(e2)).le(zero)) & !unsure;
@@ -159,8 +164,8 @@ impl<'a, L: Lanes> Packet<'a, L> {
 
     /// One coordinate of each corner of a triangle, seen from the origin of each ray.
     #[inline(always)]
-    fn moved(&self, leaf: Leaf, lane: u32, i: usize) -> [L; 3] {
-        let [a, b, c] = leaf.coordinates(lane, self.axes[i]);
+    fn moved(&self, coordinates: &impl Fn(usize) -> [f32; 3], i: usize) -> [L; 3] {
+        let [a, b, c] = coordinates(self.axes[i]);
         let o = self.o[i];
         [L::splat(a).sub(o), L::splat(b).sub(o), L::splat(c).sub(o)]
     }
@@ -192,11 +197,8 @@ impl<'a, L: Lanes> Packet<'a, L> {
         let mut all = 0;
         for i in (0..Mask::BITS).filter(|i| rays >> i & 1 == 1) {
             let ray = self.ray(i);
-            let hit = ShearedRay::new(&ray).intersect_at(
-                |axis| leaf.coordinates(lane, axis),
-                ray.t_min,
-                ray.t_max,
-            );
+            let hit =
+                ShearedRay::new(&ray).intersect_at(leaf.coordinates(lane), ray.t_min, ray.t_max);
             let Some(hit) = hit else { continue };
             all |= Mask::from(self.keep_one(i, hit.t, hit.b, number)) << i;
         }
@@ -293,4 +295,10 @@ fn least_depth<L: Lanes>([a, b, c]: [[L; 3]; 3], e: [L; 3], determinant: L) -> L
 #[inline(always)]
 fn largest<L: Lanes>(a: L, b: L, c: L) -> L {
     a.abs().max(b.abs()).max(c.abs())
+}
+
+/// x or y of three points, after z was added in proportion.
+#[inline(always)]
+fn sheared<L: Lanes>([a, b, c]: [L; 3], shear: L, z: [L; 3]) -> [L; 3] {
+    [a.add(shear.mul(z[0])), b.add(shear.mul(z[1])), c.add(shear.mul(z[2]))]
 }

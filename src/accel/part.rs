@@ -14,7 +14,7 @@ use super::node::Node;
 use super::source::Source;
 use super::stack::MOST_DEEP;
 use super::top::TOP_LEVELS;
-use super::triangles::{Triangle, TrianglesMut};
+use super::triangles::{Triangle, Triangles};
 
 /// The levels of nodes that a part may have. All triangles that can be numbered fit into it.
 const PART_LEVELS: usize = MOST_DEEP - TOP_LEVELS;
@@ -26,6 +26,8 @@ pub struct Part {
     pub roots: ArrayVec<Root, LANES>,
     /// Numbered from 0.
     pub nodes: Vec<Node>,
+    /// What its leaves hold.
+    pub triangles: Triangles,
 }
 
 /// What one thread builds its parts with.
@@ -41,13 +43,7 @@ impl Part {
     /// Builds the tree over at least one triangle, given by ascending numbers, and puts the triangles where
     /// they are to be. It becomes one child of the tree above or several, for each of which that pays a
     /// price.
-    pub fn new(
-        workshop: &mut Workshop,
-        source: &Source,
-        numbers: &[u32],
-        place: TrianglesMut,
-        price: f32,
-    ) -> Self {
+    pub fn new(workshop: &mut Workshop, source: &Source, numbers: &[u32], price: f32) -> Self {
         let Workshop { triangles, bundles, trees, collapse } = workshop;
         triangles.clear();
         triangles.extend(source.triangles(numbers.iter().copied()));
@@ -55,9 +51,9 @@ impl Part {
         let tree = trees.build(bundles);
         let choices = collapse.decide(tree, |primitive| bundles[primitive as usize].range().len());
         let mut nodes = Vec::with_capacity(triangles.len() / 64 + 1);
-        let mut contents = OfPart { triangles, bundles, place };
+        let mut contents = OfPart { triangles, bundles, leaves: Triangles::new() };
         let roots = lay_out(&choices, &mut contents, price, PART_LEVELS, &mut nodes);
-        Self { roots, nodes }
+        Self { roots, nodes, triangles: contents.leaves }
     }
 }
 
@@ -65,11 +61,11 @@ impl Part {
 struct OfPart<'a> {
     triangles: &'a [Triangle],
     bundles: &'a [Bundle],
-    place: TrianglesMut<'a>,
+    leaves: Triangles,
 }
 
 impl Contents for OfPart<'_> {
-    const MOST: usize = LANES;
+    const MOST: usize = 5;
 
     fn count(&self) -> usize {
         self.triangles.len()
@@ -83,9 +79,8 @@ impl Contents for OfPart<'_> {
         self.triangles[item as usize].corners.into_iter().fold(Aabb::EMPTY, Aabb::including)
     }
 
-    fn leaf(&mut self, items: &[u32]) -> (u32, usize) {
-        let leaf: ArrayVec<Triangle, LANES> =
-            items.iter().map(|&item| self.triangles[item as usize]).collect();
-        (self.place.push(&leaf), 0)
+    fn leaf(&mut self, items: &[u32]) -> Option<(u32, usize)> {
+        let triangles = items.iter().map(|&item| &self.triangles[item as usize]);
+        Some((self.leaves.push(triangles)?, 0))
     }
 }

@@ -49,9 +49,10 @@ impl Contents for Pieces<'_> {
         self.0[item as usize].bounds
     }
 
-    fn leaf(&mut self, items: &[u32]) -> (u32, usize) {
-        let root = self.0[items[0] as usize];
-        (root.bits, root.depth)
+    fn leaf(&mut self, items: &[u32]) -> Option<(u32, usize)> {
+        let [item] = *items else { return None };
+        let root = self.0[item as usize];
+        Some((root.bits, root.depth))
     }
 }
 

@@ -1,9 +1,10 @@
 //! [`Triangles`]: what leaves hold.
 
+use arrayvec::ArrayVec;
 use glam::{Vec3, Vec3A};
 use obvhs::aabb::Aabb;
 
-use super::lanes::{LANES, Lanes, Mask};
+use super::lanes::{LANES, Lanes, Mask, Places};
 use super::node::Child;
 
 /// A triangle, with its number among all triangles of all meshes.
@@ -22,130 +23,177 @@ impl Triangle {
 
 /// The triangles of all leaves, leaf after leaf.
 ///
-/// Each leaf has nine columns, one for each coordinate of each corner, as long as it has triangles: nothing
-/// is wasted on leaves that are not full. A vector that is loaded from a column holds, above the leaf's own
-/// lanes, what comes next; those lanes are not looked at.
+/// Neighbours share their vertices, so a leaf holds each vertex once, and for each corner of its triangles
+/// which vertex it is. It is a run of words: x of all vertices, then y, then z; for each corner sixteen times
+/// four bits in two words ([`Places`]); how many triangles there are; and their numbers. A vector that is
+/// loaded from x, y or z holds, above the leaf's own vertices, what comes next, which no corner refers to.
 #[derive(Clone, Debug)]
 pub struct Triangles {
-    columns: Vec<f32>,
-    numbers: Vec<u32>,
+    words: Vec<f32>,
+    count: usize,
 }
 
-/// Room for triangles that follow one another, which is filled leaf by leaf.
-pub struct TrianglesMut<'a> {
-    columns: &'a mut [f32],
-    numbers: &'a mut [u32],
-    /// The place of the next triangle among all.
-    first: usize,
-}
-
-/// The columns of one leaf.
+/// One leaf.
 #[derive(Clone, Copy)]
 pub struct Leaf<'a> {
-    columns: &'a [f32],
-    pub count: usize,
+    words: &'a [f32],
+    vertices: usize,
 }
 
-const COLUMNS: usize = 9;
+/// Leaves begin at cache lines, as long as the whole does.
+const ALIGNMENT: usize = 16;
+/// What a leaf has besides vertices and numbers.
+const HEAD: usize = 7;
+
+/// Vertices told apart, and for each triangle which of them it has.
+struct Shared {
+    vertices: ArrayVec<Vec3, LANES>,
+    corners: ArrayVec<[u8; 3], LANES>,
+}
+
+impl Shared {
+    /// None if there are too many.
+    fn new<'t>(triangles: impl Iterator<Item = &'t Triangle>) -> Option<Self> {
+        let mut shared = Self { vertices: ArrayVec::new(), corners: ArrayVec::new() };
+        for triangle in triangles {
+            let mut places = [0; 3];
+            for (place, p) in places.iter_mut().zip(triangle.corners) {
+                let same =
+                    |q: &Vec3| q.to_array().map(f32::to_bits) == p.to_array().map(f32::to_bits);
+                *place = match shared.vertices.iter().position(same) {
+                    Some(place) => place as u8,
+                    None => {
+                        shared.vertices.try_push(p).ok()?;
+                        shared.vertices.len() as u8 - 1
+                    }
+                };
+            }
+            shared.corners.try_push(places).ok()?;
+        }
+        Some(shared)
+    }
+}
 
 impl Triangles {
-    /// Room for so many triangles, and before them one that no ray hits; see [`Child::NOTHING`].
-    pub fn with_room(count: usize) -> Self {
-        // The last columns of the last leaf can be loaded as whole vectors.
-        let mut columns = vec![0.0; COLUMNS * (count + 1) + LANES];
-        columns[..COLUMNS].fill(f32::NAN);
-        let mut numbers = vec![0; count + 1];
-        numbers[0] = u32::MAX;
-        Self { columns, numbers }
+    /// None yet, but one that no ray hits; see [`Child::NOTHING`].
+    pub fn new() -> Self {
+        let nothing = Triangle { corners: [Vec3::NAN; 3], number: u32::MAX };
+        let mut triangles = Self { words: Vec::new(), count: 0 };
+        triangles.push([&nothing].into_iter());
+        triangles.count = 0;
+        triangles
     }
 
-    /// Room for so many triangles each, one after another.
-    pub fn pieces(&mut self, counts: &[usize]) -> Vec<TrianglesMut<'_>> {
-        let (mut columns, mut numbers) = (&mut self.columns[COLUMNS..], &mut self.numbers[1..]);
-        let mut first = 1;
-        let mut pieces = Vec::with_capacity(counts.len());
-        for &count in counts {
-            let (columns_here, more_columns) = columns.split_at_mut(COLUMNS * count);
-            let (numbers_here, more_numbers) = numbers.split_at_mut(count);
-            pieces.push(TrianglesMut { columns: columns_here, numbers: numbers_here, first });
-            (columns, numbers) = (more_columns, more_numbers);
-            first += count;
+    /// Adds a leaf: what a node refers to it by. None if the triangles have too many vertices, which five
+    /// never have.
+    pub fn push<'t>(
+        &mut self,
+        leaf: impl ExactSizeIterator<Item = &'t Triangle> + Clone,
+    ) -> Option<u32> {
+        let Shared { vertices, corners } = Shared::new(leaf.clone())?;
+        let first = self.words.len();
+        for axis in 0..3 {
+            self.words.extend(vertices.iter().map(|vertex| vertex[axis]));
         }
-        pieces
+        for corner in 0..3 {
+            let mut words = [0_u32; 2];
+            for (lane, corners) in corners.iter().enumerate() {
+                words[lane % 2] |= u32::from(corners[corner]) << (4 * (lane / 2));
+            }
+            self.words.extend(words.map(f32::from_bits));
+        }
+        self.words.push(f32::from_bits(leaf.len() as u32));
+        self.count += leaf.len();
+        self.words.extend(leaf.map(|triangle| f32::from_bits(triangle.number)));
+        self.words.resize(self.words.len().next_multiple_of(ALIGNMENT), 0.0);
+        Some(Child::leaf(first / ALIGNMENT, vertices.len()))
+    }
+
+    /// Adds the leaves of others, of which the first is left out; by how many places they move up.
+    pub fn append(&mut self, other: &Self) -> usize {
+        let moved = self.words.len() / ALIGNMENT - NOTHING_WORDS / ALIGNMENT;
+        self.words.extend_from_slice(&other.words[NOTHING_WORDS..]);
+        self.count += other.count;
+        moved
+    }
+
+    /// Takes room for the leaves of others.
+    pub fn reserve<'t>(&mut self, others: impl Iterator<Item = &'t Self>) {
+        self.words.reserve_exact(others.map(|other| other.words.len()).sum::<usize>() + 2 * LANES);
+    }
+
+    /// Adds what the last words need to be loaded as whole vectors.
+    pub fn finish(&mut self) {
+        self.words.extend([0.0; 2 * LANES]);
     }
 
     /// How many there are that rays can hit.
     pub fn len(&self) -> usize {
-        self.numbers.len() - 1
+        self.count
     }
 
     pub fn memory(&self) -> usize {
-        size_of_val(&self.columns[..]) + size_of_val(&self.numbers[..])
+        size_of_val(&self.words[..])
     }
 
     #[inline(always)]
-    pub fn number(&self, place: u32) -> u32 {
-        self.numbers[place as usize]
-    }
-
-    #[inline(always)]
-    pub fn leaf(&self, first: u32, count: usize) -> Leaf<'_> {
-        let first = COLUMNS * first as usize;
-        Leaf { columns: &self.columns[first..first + COLUMNS * count + LANES], count }
+    pub fn leaf(&self, place: u32, vertices: usize) -> Leaf<'_> {
+        let first = ALIGNMENT * place as usize;
+        // The longest leaf: what is loaded from it never reaches beyond.
+        Leaf { words: &self.words[first..first + 3 * vertices + HEAD + LANES], vertices }
     }
 }
 
-impl TrianglesMut<'_> {
-    /// Adds a leaf; what a node refers to it by.
-    pub fn push(&mut self, leaf: &[Triangle]) -> u32 {
-        let columns = self.columns.split_off_mut(..COLUMNS * leaf.len()).expect("room");
-        let mut columns = columns.chunks_exact_mut(leaf.len());
-        for corner in 0..3 {
-            for axis in 0..3 {
-                let column = columns.next().expect("nine columns");
-                for (x, triangle) in column.iter_mut().zip(leaf) {
-                    *x = triangle.corners[corner][axis];
-                }
-            }
-        }
-        let numbers = self.numbers.split_off_mut(..leaf.len()).expect("room");
-        for (number, triangle) in numbers.iter_mut().zip(leaf) {
-            *number = triangle.number;
-        }
-        let first = self.first;
-        self.first += leaf.len();
-        Child::leaf(first..self.first)
-    }
-}
+/// The leaf of one triangle with one vertex.
+const NOTHING_WORDS: usize = ALIGNMENT;
 
-impl<'a> Leaf<'a> {
-    /// One coordinate of each corner of all triangles, and what comes behind them.
+impl Leaf<'_> {
+    /// One coordinate of all vertices, and what comes behind them.
     #[inline(always)]
-    pub fn columns<L: Lanes>(self, axis: usize) -> [L; 3] {
-        let (first, corner) = (axis * self.count, 3 * self.count);
-        debug_assert!(first + 2 * corner + LANES <= self.columns.len());
-        // SAFETY: axis is below 3, so that no column begins after the ninth, and LANES numbers follow it.
-        unsafe {
-            let column = self.columns.as_ptr().add(first);
-            [
-                L::load_from(column),
-                L::load_from(column.add(corner)),
-                L::load_from(column.add(2 * corner)),
-            ]
-        }
+    pub fn vertices<L: Lanes>(self, axis: usize) -> L {
+        debug_assert!(axis < 3);
+        // SAFETY: axis is below 3, so that there are the rest of the head and LANES words behind.
+        unsafe { L::load_from(self.words.as_ptr().add(axis * self.vertices)) }
     }
 
-    /// The lanes of vectors that are the leaf's own.
+    /// Which vertices the corners of all triangles are.
+    #[inline(always)]
+    pub fn corners<P: Places>(self) -> [P; 3] {
+        let words = &self.words[3 * self.vertices..];
+        let corner = |i: usize| P::new([words[2 * i].to_bits(), words[2 * i + 1].to_bits()]);
+        [corner(0), corner(1), corner(2)]
+    }
+
+    /// How many triangles there are.
+    #[inline(always)]
+    fn count(self) -> usize {
+        self.words[3 * self.vertices + HEAD - 1].to_bits() as usize
+    }
+
+    /// The lanes that have triangles.
     #[inline(always)]
     pub fn lanes(self) -> Mask {
-        Mask::MAX >> ((LANES - self.count) % LANES)
+        Mask::MAX >> ((LANES - self.count()) % LANES)
     }
 
-    /// One coordinate of each corner of one triangle.
+    /// The number of a triangle.
     #[inline(always)]
-    pub fn coordinates(self, lane: u32, axis: usize) -> [f32; 3] {
-        let corner = 3 * self.count;
-        let column = &self.columns[axis * self.count + lane as usize..][..=2 * corner];
-        [column[0], column[corner], column[2 * corner]]
+    pub fn number(self, lane: u32) -> u32 {
+        self.words[3 * self.vertices + HEAD + lane as usize % LANES].to_bits()
+    }
+
+    /// Which vertices the corners of one triangle are.
+    #[inline(always)]
+    fn corners_of(self, lane: u32) -> [usize; 3] {
+        let words = &self.words[3 * self.vertices + lane as usize % 2..][..5];
+        let corner = |i: usize| (words[2 * i].to_bits() >> (4 * (lane / 2)) & 15) as usize;
+        [corner(0), corner(1), corner(2)]
+    }
+
+    /// Coordinates of the corners of one triangle, by axis.
+    #[inline(always)]
+    pub fn coordinates(self, lane: u32) -> impl Fn(usize) -> [f32; 3] {
+        let corners = self.corners_of(lane);
+        move |axis| corners.map(|corner| self.words[axis * self.vertices + corner])
     }
 }

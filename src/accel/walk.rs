@@ -12,8 +12,8 @@ use crate::shape::{ShearedRay, TriangleHit};
 /// A triangle in a leaf.
 #[derive(Clone, Copy)]
 struct Place {
-    first: u32,
-    count: usize,
+    place: u32,
+    vertices: usize,
     lane: u32,
     number: u32,
 }
@@ -72,14 +72,14 @@ impl Accel {
                 break;
             }
             loop {
-                let (first, count) = match Child::new(child) {
+                let (place, vertices) = match Child::new(child) {
                     Child::Node(number) => {
                         node = &self.nodes[number as usize];
                         continue 'nodes;
                     }
-                    Child::Leaf { first, count } => (first, count),
+                    Child::Leaf { place, vertices } => (place, vertices),
                 };
-                let leaf = self.triangles.leaf(first, count);
+                let leaf = self.triangles.leaf(place, vertices);
                 if let Some(met) = needle.meets(leaf, L::splat(t_max)) {
                     if !SURE && met.unsure != 0 {
                         return Err(Unsure);
@@ -94,12 +94,12 @@ impl Accel {
                             let Some(hit) = hit else { continue };
                             t = hit.t;
                         }
-                        let number = self.triangles.number(first + lane);
+                        let number = leaf.number(lane);
                         // Of two at the same distance the first triangle counts.
                         if t < t_max || t == t_max && nearest.is_none_or(|n| number < n.number) {
                             t_max = t;
                             slabs.shorten(t);
-                            nearest = Some(Place { first, count, lane, number });
+                            nearest = Some(Place { place, vertices, lane, number });
                         }
                     }
                 }
@@ -110,7 +110,7 @@ impl Accel {
             }
         }
         let Some(place) = nearest else { return Ok(None) };
-        let leaf = self.triangles.leaf(place.first, place.count);
+        let leaf = self.triangles.leaf(place.place, place.vertices);
         let hit = hit(&sheared, leaf, place.lane, ray.t_min, ray.t_max).ok_or(Unsure)?;
         Ok(Some((hit, place.number)))
     }
@@ -146,14 +146,14 @@ impl Accel {
                 return Ok(false);
             }
             loop {
-                let (first, count) = match Child::new(child) {
+                let (place, vertices) = match Child::new(child) {
                     Child::Node(number) => {
                         node = &self.nodes[number as usize];
                         continue 'nodes;
                     }
-                    Child::Leaf { first, count } => (first, count),
+                    Child::Leaf { place, vertices } => (place, vertices),
                 };
-                let leaf = self.triangles.leaf(first, count);
+                let leaf = self.triangles.leaf(place, vertices);
                 if let Some(met) = needle.meets(leaf, L::splat(ray.t_max)) {
                     let mut lanes = met.lanes;
                     if !SURE && lanes != 0 {

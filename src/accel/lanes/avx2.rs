@@ -2,7 +2,7 @@
 
 use std::arch::x86_64::*;
 
-use super::{LANES, Lanes, Mask};
+use super::{LANES, Lanes, Mask, Places};
 use crate::geometry::Ray;
 
 /// Sixteen f32 in two registers. Only code that [`super::super::path::Path::Avx2`] leads to may touch one:
@@ -37,6 +37,8 @@ macro_rules! comparisons {
 }
 
 impl Lanes for Avx2 {
+    type Places = Places256;
+
     const BEAMS: bool = true;
 
     instructions! {
@@ -137,6 +139,10 @@ impl Lanes for Avx2 {
         }
     }
     #[inline(always)]
+    fn at(self, places: Places256) -> Self {
+        Self(at(self, places.0), at(self, places.1))
+    }
+    #[inline(always)]
     fn flipped(self, flip: u32) -> Self {
         let (low, high) = if flip & 8 == 0 { (self.0, self.1) } else { (self.1, self.0) };
         // SAFETY: as above.
@@ -190,5 +196,35 @@ fn four(a: __m256, b: __m256, c: __m256, d: __m256) -> [__m256; 4] {
             _mm256_shuffle_ps::<0x44>(ab2, cd2),
             _mm256_shuffle_ps::<0xee>(ab2, cd2),
         ]
+    }
+}
+
+/// [`Places`] in the lowest four bits of each lane, with anything above.
+#[derive(Clone, Copy)]
+pub struct Places256(__m256i, __m256i);
+
+impl Places for Places256 {
+    #[inline(always)]
+    fn new([even, odd]: [u32; 2]) -> Self {
+        let words = u64::from(even) | u64::from(odd) << 32;
+        // SAFETY: as above.
+        unsafe {
+            let words = _mm256_set1_epi64x(words as i64);
+            let low = _mm256_set_epi32(12, 12, 8, 8, 4, 4, 0, 0);
+            let high = _mm256_set_epi32(28, 28, 24, 24, 20, 20, 16, 16);
+            Self(_mm256_srlv_epi32(words, low), _mm256_srlv_epi32(words, high))
+        }
+    }
+}
+
+/// Eight lanes of sixteen, by the lowest four bits of `places`.
+#[inline(always)]
+fn at(from: Avx2, places: __m256i) -> __m256 {
+    // SAFETY: called from above.
+    unsafe {
+        let low = _mm256_permutevar8x32_ps(from.0, places);
+        let high = _mm256_permutevar8x32_ps(from.1, places);
+        // The fourth bit, as the sign, chooses.
+        _mm256_blendv_ps(low, high, _mm256_castsi256_ps(_mm256_slli_epi32::<28>(places)))
     }
 }

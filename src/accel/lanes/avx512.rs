@@ -2,7 +2,7 @@
 
 use std::arch::x86_64::*;
 
-use super::{LANES, Lanes, Mask};
+use super::{LANES, Lanes, Mask, Places};
 use crate::accel::stack::Stack;
 use crate::geometry::Ray;
 
@@ -30,6 +30,8 @@ impl From<__m512> for Avx512 {
 }
 
 impl Lanes for Avx512 {
+    type Places = Places512;
+
     const BEAMS: bool = true;
 
     instructions! {
@@ -124,6 +126,11 @@ impl Lanes for Avx512 {
     fn spread(self, lane: u32) -> Self {
         // SAFETY: as above.
         Self(unsafe { _mm512_permutexvar_ps(_mm512_set1_epi32(lane as i32), self.0) })
+    }
+    #[inline(always)]
+    fn at(self, places: Places512) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm512_permutexvar_ps(places.0, self.0) })
     }
     #[inline(always)]
     fn flipped(self, flip: u32) -> Self {
@@ -229,5 +236,21 @@ fn quarters(
         let ab = f(_mm512_shuffle_f32x4::<0x44>(a, b), _mm512_shuffle_f32x4::<0xee>(a, b));
         let cd = f(_mm512_shuffle_f32x4::<0x44>(c, d), _mm512_shuffle_f32x4::<0xee>(c, d));
         f(_mm512_shuffle_f32x4::<0x88>(ab, cd), _mm512_shuffle_f32x4::<0xdd>(ab, cd))
+    }
+}
+
+/// [`Places`] in the lowest four bits of each lane, with anything above.
+#[derive(Clone, Copy)]
+pub struct Places512(__m512i);
+
+impl Places for Places512 {
+    #[inline(always)]
+    fn new([even, odd]: [u32; 2]) -> Self {
+        let words = u64::from(even) | u64::from(odd) << 32;
+        // SAFETY: as above.
+        unsafe {
+            let shifts = _mm512_set_epi32(28, 28, 24, 24, 20, 20, 16, 16, 12, 12, 8, 8, 4, 4, 0, 0);
+            Self(_mm512_srlv_epi32(_mm512_set1_epi64(words as i64), shifts))
+        }
     }
 }

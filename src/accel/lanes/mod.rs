@@ -24,8 +24,16 @@ pub const LANES: usize = 16;
 /// One bit for each lane.
 pub type Mask = u16;
 
+/// For each lane the number of a lane, in four bits: those of even lanes in the first of two words, lowest
+/// first, and those of odd lanes in the second.
+pub trait Places: Copy {
+    fn new(words: [u32; 2]) -> Self;
+}
+
 /// Sixteen f32.
 pub trait Lanes: Copy {
+    type Places: Places;
+
     /// Whether vectors are wide enough for packets of rays to pay.
     const BEAMS: bool;
 
@@ -72,6 +80,8 @@ pub trait Lanes: Copy {
     fn lane(self, lane: u32) -> f32;
     /// The number in a lane in all lanes.
     fn spread(self, lane: u32) -> Self;
+    /// Lane `i` becomes the lane that it has the number of.
+    fn at(self, places: Self::Places) -> Self;
     /// Lane `i` becomes lane `i ^ flip`.
     fn flipped(self, flip: u32) -> Self;
     /// Puts the children in the lanes of `mask`, after lanes were flipped as by [`Lanes::flipped`], on the

@@ -2,7 +2,7 @@
 
 use std::array::from_fn;
 
-use super::{LANES, Lanes, Mask};
+use super::{LANES, Lanes, Mask, Places};
 use crate::geometry::Ray;
 
 #[derive(Clone, Copy)]
@@ -21,6 +21,8 @@ impl Portable {
 }
 
 impl Lanes for Portable {
+    type Places = [u8; LANES];
+
     const BEAMS: bool = false;
 
     #[inline(always)]
@@ -115,7 +117,18 @@ impl Lanes for Portable {
         Self::splat(self.lane(lane))
     }
     #[inline(always)]
+    fn at(self, places: [u8; LANES]) -> Self {
+        Self(from_fn(|i| self.0[usize::from(places[i]) % LANES]))
+    }
+    #[inline(always)]
     fn flipped(self, flip: u32) -> Self {
         Self(from_fn(|i| self.0[(i ^ flip as usize) % LANES]))
+    }
+}
+
+impl Places for [u8; LANES] {
+    #[inline(always)]
+    fn new(words: [u32; 2]) -> Self {
+        from_fn(|i| (words[i % 2] >> (4 * (i / 2)) & 15) as u8)
     }
 }
