@@ -121,7 +121,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let start = Instant::now();
     let accel = Accel::build(&[mesh]);
     let seconds = start.elapsed().as_secs_f64();
-    println!("lobe build {seconds:.3} s, {} triangles, {:.1} bytes for each", accel.triangle_count(), accel.memory() as f64 / accel.triangle_count() as f64);
+    println!(
+        "lobe build {seconds:.3} s, {} triangles, {:.1} bytes for each",
+        accel.triangle_count(),
+        accel.memory() as f64 / accel.triangle_count() as f64
+    );
     for path in &options.rays {
         let rays = read_rays(path)?;
         let share = rays.len().div_ceil(options.threads).max(1);

@@ -176,20 +176,20 @@ impl<L: Lanes> Frustum<L> {
         let sides = &self.of_packets[packet % PACKETS];
         let z = leaf.vertices::<L>(self.axes[2]).sub(self.base[2]);
         let corners = leaf.corners::<L::Places>();
-        // How far within each bound a vertex is, and of each triangle the one that is farthest within.
-        let farthest = |within: L| {
-            let [a, b, c] = corners;
-            within.at(a).max(within.at(b).max(within.at(c)))
-        };
+        leaf.lanes()
+            & self.within(leaf, 0, z, sides, corners)
+            & self.within(leaf, 1, z, sides, corners)
+    }
+
+    /// Which triangles are not beside the sides in x or y.
+    #[inline(always)]
+    fn within(&self, leaf: Leaf, i: usize, z: L, sides: &Sides, corners: [L::Places; 3]) -> Mask {
+        let x = leaf.vertices::<L>(self.axes[i]).sub(self.base[i]);
+        // How far within either line each vertex is, and of each triangle the one that is farthest within.
+        let above = farthest(x.sub(sides.low[i].at(z)), corners);
+        let below = farthest(sides.high[i].at(z).sub(x), corners);
         let out = L::splat(0.0).sub(self.padding);
-        let mut met = leaf.lanes();
-        met &= out.le(farthest(z.sub(self.ends[0]))) & out.le(farthest(self.ends[1].sub(z)));
-        for i in 0..2 {
-            let x = leaf.vertices::<L>(self.axes[i]).sub(self.base[i]);
-            met &= out.le(farthest(x.sub(sides.low[i].at(z))));
-            met &= out.le(farthest(sides.high[i].at(z).sub(x)));
-        }
-        met
+        out.le(above) & out.le(below)
     }
 
     /// From where to where the children reach along an axis.
@@ -227,4 +227,10 @@ fn end<L: Lanes, const N: usize>(packets: &[Packet<L>; N], base: L) -> f32 {
         end = if packet.backwards { end.min(packet.end(base)) } else { end.max(packet.end(base)) };
     }
     if packets[0].backwards { end.least() } else { end.greatest() }
+}
+
+/// The largest number of each triangle's vertices.
+#[inline(always)]
+fn farthest<L: Lanes>(vertices: L, [a, b, c]: [L::Places; 3]) -> L {
+    vertices.at(a).max(vertices.at(b).max(vertices.at(c)))
 }

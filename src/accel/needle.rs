@@ -73,7 +73,8 @@ pub fn hit(
     t_min: f32,
     t_max: f32,
 ) -> Option<TriangleHit> {
-    sheared.intersect_at(leaf.coordinates(lane), t_min, t_max)
+    let corners = leaf.corners_of(lane);
+    sheared.intersect_at(|axis| leaf.coordinates(corners, axis), t_min, t_max)
 }
 
 /// Twice the signed area of the triangle (origin, p, q) seen along z.

@@ -129,10 +129,10 @@ impl<'a, L: Lanes> Packet<'a, L> {
     #[inline(always)]
     pub fn meet(&mut self, leaf: Leaf, lane: u32, number: u32) -> Mask {
         // The corners in the space of each ray, where it starts at the origin and runs along z.
-        let coordinates = leaf.coordinates(lane);
-        let z = self.moved(&coordinates, 2);
-        let x = sheared(self.moved(&coordinates, 0), self.shear[0], z);
-        let y = sheared(self.moved(&coordinates, 1), self.shear[1], z);
+        let corners = leaf.corners_of(lane);
+        let z = self.moved(leaf, corners, 2);
+        let x = sheared(self.moved(leaf, corners, 0), self.shear[0], z);
+        let y = sheared(self.moved(leaf, corners, 1), self.shear[1], z);
         let (a, b, c) = ([x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]);
         let (e0, e1, e2) = (
             edge(x[1], y[1], x[2], y[2]),
@@ -164,8 +164,8 @@ impl<'a, L: Lanes> Packet<'a, L> {
 
     /// One coordinate of each corner of a triangle, seen from the origin of each ray.
     #[inline(always)]
-    fn moved(&self, coordinates: &impl Fn(usize) -> [f32; 3], i: usize) -> [L; 3] {
-        let [a, b, c] = coordinates(self.axes[i]);
+    fn moved(&self, leaf: Leaf, corners: [usize; 3], i: usize) -> [L; 3] {
+        let [a, b, c] = leaf.coordinates(corners, self.axes[i]);
         let o = self.o[i];
         [L::splat(a).sub(o), L::splat(b).sub(o), L::splat(c).sub(o)]
     }
@@ -195,10 +195,14 @@ impl<'a, L: Lanes> Packet<'a, L> {
     #[inline(never)]
     fn meet_singly(&mut self, leaf: Leaf, lane: u32, number: u32, rays: Mask) -> Mask {
         let mut all = 0;
+        let corners = leaf.corners_of(lane);
         for i in (0..Mask::BITS).filter(|i| rays >> i & 1 == 1) {
             let ray = self.ray(i);
-            let hit =
-                ShearedRay::new(&ray).intersect_at(leaf.coordinates(lane), ray.t_min, ray.t_max);
+            let hit = ShearedRay::new(&ray).intersect_at(
+                |axis| leaf.coordinates(corners, axis),
+                ray.t_min,
+                ray.t_max,
+            );
             let Some(hit) = hit else { continue };
             all |= Mask::from(self.keep_one(i, hit.t, hit.b, number)) << i;
         }

@@ -184,16 +184,17 @@ impl Leaf<'_> {
 
     /// Which vertices the corners of one triangle are.
     #[inline(always)]
-    fn corners_of(self, lane: u32) -> [usize; 3] {
+    pub fn corners_of(self, lane: u32) -> [usize; 3] {
         let words = &self.words[3 * self.vertices + lane as usize % 2..][..5];
-        let corner = |i: usize| (words[2 * i].to_bits() >> (4 * (lane / 2)) & 15) as usize;
-        [corner(0), corner(1), corner(2)]
+        let shift = 4 * (lane / 2 % 8);
+        let corner = |word: f32| (word.to_bits() >> shift & 15) as usize;
+        [corner(words[0]), corner(words[2]), corner(words[4])]
     }
 
-    /// Coordinates of the corners of one triangle, by axis.
+    /// One coordinate of three vertices.
     #[inline(always)]
-    pub fn coordinates(self, lane: u32) -> impl Fn(usize) -> [f32; 3] {
-        let corners = self.corners_of(lane);
-        move |axis| corners.map(|corner| self.words[axis * self.vertices + corner])
+    pub fn coordinates(self, [a, b, c]: [usize; 3], axis: usize) -> [f32; 3] {
+        let x = &self.words[axis * self.vertices..][..LANES];
+        [x[a % LANES], x[b % LANES], x[c % LANES]]
     }
 }
