@@ -121,10 +121,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let start = Instant::now();
     let accel = Accel::build(&[mesh]);
     let seconds = start.elapsed().as_secs_f64();
+    let (triangles, nodes) = (accel.triangle_count(), accel.node_count());
+    let bytes = accel.memory() as f64 / triangles as f64;
     println!(
-        "lobe build {seconds:.3} s, {} triangles, {:.1} bytes for each",
-        accel.triangle_count(),
-        accel.memory() as f64 / accel.triangle_count() as f64
+        "lobe build {seconds:.3} s, {triangles} triangles, {nodes} nodes, {bytes:.1} bytes a triangle"
     );
     for path in &options.rays {
         let rays = read_rays(path)?;
