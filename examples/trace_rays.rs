@@ -1,19 +1,21 @@
 //! Traces rays from files against a mesh and says how many hit, and how fast.
 //!
-//! `cargo run --release --example trace_rays -- MESH.obj FILE.rays... [--threads N] [--mode closest|any|batch|any-batch]`
+//! `cargo run --release --example trace_rays -- MESH.obj FILE.rays... [--threads N] [--mode closest|any|batch|any-batch] [--check N]`
 //!
 //! A ray file is a flat array of rays, each 8 little-endian f32: origin, t_min, direction, t_max. Each
 //! file is traced nine times; a line gives rays, hits, the sum of t over the hits (0 where any hit counts), and the
-//! median and best of millions of rays per second.
+//! median and best of millions of rays per second. With `--check` every N-th ray is also tested against all
+//! triangles one by one, and the line after says whether the tree gave the same.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use lobe::TriangleMesh;
 use lobe::accel::{Accel, Hit};
 use lobe::geometry::Ray;
 use lobe::glam::Vec3;
-use lobe::shape::read_obj;
+use lobe::shape::{ShearedRay, TriangleHit, read_obj};
 
 const REPETITIONS: usize = 9;
 /// Rays in one call of `batch`: what a renderer's wave holds.
@@ -32,16 +34,21 @@ struct Options {
     rays: Vec<PathBuf>,
     threads: usize,
     mode: Mode,
+    check: Option<usize>,
 }
 
 fn options() -> Result<Options, Box<dyn Error>> {
-    let (mut files, mut threads, mut mode) = (Vec::new(), 1, Mode::Closest);
+    let (mut files, mut threads, mut mode, mut check) = (Vec::new(), 1, Mode::Closest, None);
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--threads" => {
                 let count = arguments.next().and_then(|n| n.parse().ok()).filter(|&n| n > 0);
                 threads = count.ok_or("--threads needs a number of at least 1")?;
+            }
+            "--check" => {
+                check = arguments.next().and_then(|n| n.parse().ok()).filter(|&n| n > 0);
+                check.ok_or("--check needs a number of at least 1")?;
             }
             "--mode" => {
                 mode = match arguments.next().as_deref() {
@@ -62,12 +69,12 @@ fn options() -> Result<Options, Box<dyn Error>> {
     }
     if files.len() < 2 {
         return Err(
-            "usage: trace_rays MESH.obj FILE.rays... [--threads N] [--mode closest|any|batch|any-batch]"
+            "usage: trace_rays MESH.obj FILE.rays... [--threads N] [--mode closest|any|batch|any-batch] [--check N]"
                 .into(),
         );
     }
     let rays = files.split_off(1);
-    Ok(Options { mesh: files.remove(0), rays, threads, mode })
+    Ok(Options { mesh: files.remove(0), rays, threads, mode, check })
 }
 
 fn read_rays(path: &Path) -> Result<Vec<Ray>, Box<dyn Error>> {
@@ -115,11 +122,27 @@ fn trace(accel: &Accel, rays: &[Ray], mode: Mode) -> (usize, f64) {
     }
 }
 
+/// How many of the rays the tree answers as a loop over all triangles does.
+fn same_as_loop(accel: &Accel, mesh: &TriangleMesh, rays: &[&Ray]) -> usize {
+    let is_same = |ray: &&&Ray| {
+        let sheared = ShearedRay::new(ray);
+        let mut closest = Hit::MISS;
+        for triangle in 0..mesh.indices.len() {
+            let found = sheared.intersect(&mesh.corners(triangle), ray.t_min, ray.t_max);
+            if let Some(TriangleHit { t, b }) = found.filter(|found| found.t < closest.t) {
+                closest = Hit { t, b, shape: 0, triangle: triangle as u32 };
+            }
+        }
+        accel.intersect1(ray) == closest && accel.occluded1(ray) == closest.is_hit()
+    };
+    rays.iter().filter(is_same).count()
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let options = options()?;
-    let mesh = read_obj(&options.mesh)?.mesh;
+    let mesh = [read_obj(&options.mesh)?.mesh];
     let start = Instant::now();
-    let accel = Accel::build(&[mesh]);
+    let accel = Accel::build(&mesh);
     let seconds = start.elapsed().as_secs_f64();
     let (triangles, nodes) = (accel.triangle_count(), accel.node_count());
     let bytes = accel.memory() as f64 / triangles as f64;
@@ -163,6 +186,17 @@ fn main() -> Result<(), Box<dyn Error>> {
             speed(seconds[REPETITIONS / 2]),
             speed(seconds[0])
         );
+        if let Some(step) = options.check {
+            let some: Vec<&Ray> = rays.iter().step_by(step).collect();
+            let share = some.len().div_ceil(options.threads).max(1);
+            let same: usize = std::thread::scope(|scope| {
+                let (accel, mesh) = (&accel, &mesh[0]);
+                let check = |rays| scope.spawn(move || same_as_loop(accel, mesh, rays));
+                let workers: Vec<_> = some.chunks(share).map(check).collect();
+                workers.into_iter().map(|worker| worker.join().expect("no worker panics")).sum()
+            });
+            println!("lobe {name:16} {same} of {} rays as a loop over all triangles", some.len());
+        }
     }
     Ok(())
 }
