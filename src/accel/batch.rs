@@ -81,12 +81,13 @@ impl Accel {
         let mut packets = ArrayVec::<Packet<L>, PACKETS>::new();
         let mut places = ArrayVec::<usize, PACKETS>::new();
         for (place, rays) in groups.iter().enumerate() {
-            match Packet::new(rays) {
-                Some(packet) if L::BEAMS && !self.nodes.is_empty() => {
+            let may_share = L::BEAMS && !self.nodes.is_empty();
+            match may_share.then(|| Packet::new(rays)).flatten() {
+                Some(packet) => {
                     packets.push(packet);
                     places.push(place);
                 }
-                _ => self.answer_singly(stack, rays, &mut answers[place]),
+                None => self.answer_singly(stack, rays, &mut answers[place]),
             }
         }
         let mut done = 0;

@@ -9,10 +9,10 @@ use super::stack::Stack;
 use super::triangles::Leaf;
 use super::walk::Start;
 
-/// So many rays have to come to a leaf, on average, that it pays to trace packets together. Any hit is found
-/// sooner by rays on their own, so that those need more company.
-const BEAM_PER_LEAF: f32 = 2.0;
-const PACKET_PER_LEAF: f32 = 0.1;
+/// So many rays have to come to a leaf, on average, that it pays to trace them together: several packets, or one
+/// that asks for any hit, which single rays find soon; and one that asks for the closest.
+const MANY_PER_LEAF: f32 = 2.0;
+const SOME_PER_LEAF: f32 = 0.1;
 
 /// So few rays of a beam at a node walk on by themselves.
 const FEW_AT_NODE: u32 = 4;
@@ -32,7 +32,7 @@ impl Accel {
         packets: &mut [Packet<L>; N],
         any_hit: bool,
     ) -> bool {
-        let per_leaf = if N > 1 || any_hit { BEAM_PER_LEAF } else { PACKET_PER_LEAF };
+        let per_leaf = if N > 1 || any_hit { MANY_PER_LEAF } else { SOME_PER_LEAF };
         let frustum =
             Frustum::new(packets, &self.bounds, self.largest_coordinate, self.grain, per_leaf);
         let Some(mut frustum) = frustum else { return false };

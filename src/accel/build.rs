@@ -10,6 +10,7 @@ use super::part::{Part, Workshop};
 use super::path::Path;
 use super::sort::{Sorted, sort};
 use super::source::Source;
+use super::stack::MOST_DEEP;
 use super::top::top;
 use super::triangles::Triangles;
 use crate::shape::TriangleMesh;
@@ -35,7 +36,7 @@ pub struct Accel {
 }
 
 impl Accel {
-    /// The most triangles that a tree can be built over.
+    /// The most triangles that a tree can be built over: one leaf is there for slots without a child.
     pub const MOST_TRIANGLES: usize = MOST_TRIANGLES - 1;
 
     /// Builds the tree over all triangles of all meshes, on as many threads as the system offers; the tree
@@ -124,7 +125,7 @@ fn join(parts: &[Part]) -> (Vec<Node>, Triangles, usize) {
     }
     let pieces: usize = parts.iter().map(|part| part.roots.len()).sum();
     let count: usize = parts.iter().map(|part| part.nodes.len()).sum();
-    // The root, those of the parts, and about as many above them as there is room for here.
+    // The root, those of the parts, and a guess at those between.
     let mut nodes = Vec::with_capacity(1 + count + pieces / 2);
     nodes.push(Node::EMPTY);
     let mut roots = Vec::with_capacity(pieces);
@@ -141,6 +142,7 @@ fn join(parts: &[Part]) -> (Vec<Node>, Triangles, usize) {
     }
     triangles.finish();
     let depth = top(&roots, &mut nodes);
+    debug_assert!(depth <= MOST_DEEP);
     (nodes, triangles, depth)
 }
 

@@ -10,11 +10,11 @@ use super::triangles::Triangle;
 /// More triangles than this with the same box are one to the tree.
 const MOST: u8 = 16;
 
-/// What a leaf is made of: almost always one triangle.
+/// A primitive of the binary tree: almost always one triangle.
 ///
 /// The builder pairs neighbours that are each other's cheapest. In a heap of triangles with equal boxes
 /// each prefers the next, so that every pass over all of them makes one pair: its time is quadratic in the
-/// heap's size, and the tree it makes is a chain. A heap is therefore kept together in one leaf.
+/// heap's size, and the tree it makes is a chain. A heap is therefore one primitive.
 #[derive(Clone, Copy)]
 pub struct Bundle {
     first: u32,

@@ -40,7 +40,8 @@ pub struct Choices<'a> {
 struct Known {
     /// Where its choices begin, for k from 1 on.
     start: u32,
-    /// How many there are: one for each primitive, up to [`LANES`], and fewer where that is [`SMALL`].
+    /// How many there are: one for each primitive, up to [`LANES`]; where all fits into a leaf, one for each
+    /// [`SMALL`] items at most.
     ways: u8,
     /// How much there is below it, up to one more than fits into a leaf.
     items: u8,
@@ -56,8 +57,8 @@ const FEWER: u8 = 0x80;
 pub const TOO_MANY: usize = LANES + 1;
 
 impl Collapse {
-    /// Decides for all nodes of the tree. `items` says how many of what leaves have room for [`LANES`] of are
-    /// in a primitive.
+    /// Decides for all nodes of the tree. `items` says how many a primitive has; a leaf is taken to
+    /// have room for [`LANES`] of them, though it may refuse some.
     pub fn decide<'a>(&'a mut self, tree: &'a Bvh2, items: impl Fn(u32) -> usize) -> Choices<'a> {
         parents_first(tree, &mut self.order);
         self.known.resize(tree.nodes.len(), Known::default());

@@ -1,4 +1,4 @@
-//! [`Frustum`]: all that a packet of rays can meet, against boxes and triangles.
+//! [`Frustum`]: all that a beam of rays can meet, against boxes and triangles.
 
 use super::Aabb;
 use super::lanes::{LANES, Lanes, Mask, splat3};
@@ -110,7 +110,8 @@ impl<L: Lanes> Frustum<L> {
         } else {
             [low.max(start.least() - base[2]), high.min(end(packets, splat_base[2]))]
         };
-        let per_length = if ends[0] < ends[1] { 1.0 / (ends[1] - ends[0]) } else { 0.0 };
+        let length = ends[1] - ends[0];
+        let per_length = if length > f32::MIN_POSITIVE { 1.0 / length } else { 0.0 };
         let mut of_packets =
             [Sides { low: [Line { a: 0.0, s: 0.0 }; 2], high: [Line { a: 0.0, s: 0.0 }; 2] };
                 PACKETS];

@@ -56,8 +56,8 @@ struct Open {
 }
 
 /// Lays a tree out, as up to sixteen children of nodes above, where each place has a price: adds its nodes to
-/// `nodes`. It has at most so many levels of nodes, which must suffice for leaves that are full and equally
-/// deep.
+/// `nodes`. It has at most so many levels of nodes, which must suffice for equally deep leaves of as
+/// many items as always fit.
 pub fn lay_out<C: Contents>(
     choices: &Choices,
     contents: &mut C,
@@ -112,7 +112,7 @@ struct Layout<'a, C> {
 }
 
 impl<C: Contents> Layout<'_, C> {
-    /// How many levels of nodes all items need if their leaves are full and equally deep.
+    /// How many levels of nodes all items need in equally deep leaves of as many as always fit.
     fn levels_of_heap(&self) -> usize {
         let count = self.contents.count();
         let (mut levels, mut room) = (0, C::MOST);
@@ -158,7 +158,7 @@ impl<C: Contents> Layout<'_, C> {
                 self.choices.children(place).into_iter().map(Below::Subtree).collect()
             }
             Below::Heap(items) => {
-                // Sixteen shares, each of as many as full nodes below them have.
+                // At most sixteen shares, each of as many as always fit into full nodes below them.
                 let mut share = C::MOST;
                 while share * LANES < items.len() {
                     share *= LANES;

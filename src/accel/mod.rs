@@ -3,7 +3,7 @@
 //! [`Accel`] answers one ray at a time or a batch; callers that can should use the batches, which find what
 //! neighbouring rays have in common. Both use the widest instructions that the processor has, see [`Path`].
 
-// For the instructions of AVX-512 in `lanes`, and the way to them in `path`.
+// For SIMD instructions in `lanes`, what they load in `triangles`, and the way to them in `path`.
 #![allow(unsafe_code)]
 
 mod aabb;

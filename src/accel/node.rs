@@ -11,7 +11,7 @@ use super::lanes::LANES;
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct Node {
-    /// Lowest x, y and z, then highest x, y and z, of each child; the other way round where there is none.
+    /// Lowest x, y and z, then highest x, y and z, of each child; +∞ and -∞ where there is none.
     pub planes: [[f32; LANES]; 6],
     pub children: [u32; LANES],
 }

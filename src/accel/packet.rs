@@ -3,13 +3,13 @@
 use glam::Vec3A;
 
 use super::lanes::{LANES, Lanes, Mask, splat3};
-use super::needle::{Needle, edge};
+use super::needle::{Needle, edge, hit};
 use super::node::Node;
 use super::triangles::Leaf;
 use super::{Accel, Hit};
 use crate::geometry::Ray;
 use crate::geometry::float::gamma;
-use crate::shape::ShearedRay;
+use crate::shape::{ShearedRay, TriangleHit};
 
 /// Sixteen rays that are longest in the same axis and run along it in the same sense, with the nearest hit
 /// of each so far. Each lane computes what [`ShearedRay`] computes, to the bit.
@@ -56,9 +56,10 @@ impl<'a, L: Lanes> Packet<'a, L> {
         let (o, d) = ([o[x], o[y], o[z]], [d[x], d[y], d[z]]);
         let zero = L::splat(0.0);
         let forwards = zero.lt(d[2]);
-        // Numbers that a frustum can be made from: no sum or product of theirs is NaN.
+        // Numbers that a frustum can be made from: no sum, product or quotient of theirs is NaN.
         let distance = o[0].abs().add(o[1].abs()).add(o[2].abs());
         let finite = distance.lt(L::splat(FARTHEST))
+            & zero.lt(d[2].abs())
             & d[2].abs().lt(L::splat(f32::INFINITY))
             & d[0].abs().le(d[2].abs())
             & d[1].abs().le(d[2].abs())
@@ -191,20 +192,15 @@ impl<'a, L: Lanes> Packet<'a, L> {
     }
 
     /// Tests rays for which an edge function is zero, which takes f64.
-    #[cold]
-    #[inline(never)]
-    fn meet_singly(&mut self, leaf: Leaf, lane: u32, number: u32, rays: Mask) -> Mask {
+    #[inline(always)]
+    fn meet_singly(&mut self, leaf: Leaf, lane: u32, number: u32, mut rays: Mask) -> Mask {
         let mut all = 0;
-        let corners = leaf.corners_of(lane);
-        for i in (0..Mask::BITS).filter(|i| rays >> i & 1 == 1) {
-            let ray = self.ray(i);
-            let hit = ShearedRay::new(&ray).intersect_at(
-                |axis| leaf.coordinates(corners, axis),
-                ray.t_min,
-                ray.t_max,
-            );
-            let Some(hit) = hit else { continue };
-            all |= Mask::from(self.keep_one(i, hit.t, hit.b, number)) << i;
+        while rays != 0 {
+            let i = rays.trailing_zeros();
+            rays &= rays - 1;
+            if let Some(hit) = hit_apart(&self.ray(i), leaf, lane) {
+                all |= Mask::from(self.keep_one(i, hit.t, hit.b, number)) << i;
+            }
         }
         all
     }
@@ -276,6 +272,13 @@ impl<'a, L: Lanes> Packet<'a, L> {
             }
         }
     }
+}
+
+/// The test of one triangle, out of the way of the vectors.
+#[cold]
+#[inline(never)]
+fn hit_apart(ray: &Ray, leaf: Leaf, lane: u32) -> Option<TriangleHit> {
+    hit(&ShearedRay::new(ray), leaf, lane, ray.t_min, ray.t_max)
 }
 
 /// The bound on the error of the depth, as for one triangle.

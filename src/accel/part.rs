@@ -10,15 +10,16 @@ use super::bundle::{Bundle, bundle};
 use super::collapse::Collapse;
 use super::lanes::LANES;
 use super::layout::{Contents, Root, lay_out};
-use super::node::Node;
+use super::node::{MOST_TRIANGLES, Node};
 use super::source::Source;
 use super::stack::MOST_DEEP;
 use super::top::TOP_LEVELS;
 use super::triangles::{Triangle, Triangles};
 
-/// The levels of nodes that a part may have. All triangles that can be numbered fit into it.
+/// The levels of nodes that a part may have. All triangles that can be numbered fit into fewer, if all leaves
+/// are equally deep: at least three levels are left to the heuristic.
 const PART_LEVELS: usize = MOST_DEEP - TOP_LEVELS;
-const _: () = assert!(LANES.pow(PART_LEVELS as u32 - 3) >= super::node::MOST_TRIANGLES);
+const _: () = assert!(OfPart::MOST * LANES.pow(PART_LEVELS as u32 - 3) >= MOST_TRIANGLES);
 
 /// The tree over some of the triangles, which are in their place already.
 pub struct Part {
@@ -65,7 +66,8 @@ struct OfPart<'a> {
 }
 
 impl Contents for OfPart<'_> {
-    const MOST: usize = 5;
+    /// If no two share a vertex.
+    const MOST: usize = LANES / 3;
 
     fn count(&self) -> usize {
         self.triangles.len()

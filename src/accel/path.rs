@@ -23,6 +23,7 @@ pub enum Path {
 impl Path {
     /// Those that this processor has, the fastest last.
     pub fn available() -> Vec<Self> {
+        #[cfg_attr(not(target_arch = "x86_64"), expect(unused_mut))]
         let mut paths = vec![Self::Portable];
         #[cfg(target_arch = "x86_64")]
         {
@@ -50,8 +51,9 @@ impl Path {
     }
 }
 
-/// Defines a method of [`Accel`] that goes the way of its path to a generic one. All that the generic one
-/// calls has to be inlined into a function that is compiled for the instructions of the path.
+/// Defines a method of [`Accel`] that goes the way of its path to a generic one. All of it that uses vectors has
+/// to be inlined into a function that is compiled for the instructions of the path. Nowhere else may a type of
+/// vectors be chosen.
 macro_rules! dispatch {
     ($name:ident($accel:ident, $stack:ident, $($argument:ident: $type:ty),*) -> $result:ty, <$lanes:ident> $body:expr) => {
         #[inline]
@@ -102,7 +104,7 @@ impl Accel {
             Err(Unsure) => accel.surely_any(stack, ray, start),
         }
     });
-    // Apart from the rest, since they hardly ever run.
+    // Not part of the two above, since they hardly ever run.
     dispatch!(surely_closest(accel, stack, ray: &Ray, start: Start) -> Found, <L> {
         accel.find::<L, true>(stack, ray, start).unwrap_or(None)
     });

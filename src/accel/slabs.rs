@@ -22,6 +22,8 @@ pub struct Slabs<L> {
     last: [usize; 3],
     t_min: L,
     t_max: L,
+    /// `t_max` of every lane: beyond it a box need not be entered.
+    pub end: f32,
     /// Turns slots into the order in which the ray meets them, the last one first.
     pub flip: u32,
 }
@@ -50,6 +52,7 @@ impl<L: Lanes> Slabs<L> {
             last: [0, 1, 2].map(|axis| axis + 3 - 3 * is_backwards[axis]),
             t_min: L::splat(ray.t_min),
             t_max: L::splat(ray.t_max * TOLERANCE),
+            end: ray.t_max * TOLERANCE,
             // Two slots to an octant.
             flip: backwards << 1 ^ (LANES as u32 - 1),
         }
@@ -58,7 +61,8 @@ impl<L: Lanes> Slabs<L> {
     /// Forgets what lies beyond `t_max`.
     #[inline(always)]
     pub fn shorten(&mut self, t_max: f32) {
-        self.t_max = L::splat(t_max * TOLERANCE);
+        self.end = t_max * TOLERANCE;
+        self.t_max = L::splat(self.end);
     }
 
     /// Where the ray enters and leaves each child; it misses those that it leaves before it enters.

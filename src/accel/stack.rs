@@ -7,11 +7,12 @@ use super::lanes::LANES;
 /// No tree is deeper than this, in nodes; see [`super::part`].
 pub const MOST_DEEP: usize = 16;
 
-/// How many children can wait: of each node on the way down all but the one that is entered. And a whole
-/// vector is written at a time.
+/// How many children can wait: of each node on the way down all but the one that is entered, and of the last
+/// one all. A whole vector is written at a time.
 const CAPACITY: usize = (LANES - 1) * MOST_DEEP + LANES;
 
-/// Children that wait, and where the ray enters them. How many there are the walk itself remembers.
+/// Children that wait, and where the ray enters them; for beams the slots of children, and where those begin
+/// along z. How many there are the walk itself remembers.
 pub struct Stack {
     children: [u32; CAPACITY],
     enters: [f32; CAPACITY],

@@ -151,17 +151,16 @@ impl Leaf<'_> {
     /// One coordinate of all vertices, and what comes behind them.
     #[inline(always)]
     pub fn vertices<L: Lanes>(self, axis: usize) -> L {
-        debug_assert!(axis < 3);
-        // SAFETY: axis is below 3, so that there are the rest of the head and LANES words behind.
-        unsafe { L::load_from(self.words.as_ptr().add(axis * self.vertices)) }
+        // SAFETY: behind z there are the head and LANES words, and a vector is no longer than those.
+        unsafe { L::load_from(self.words.as_ptr().add(axis % 3 * self.vertices)) }
     }
 
     /// Which vertices the corners of all triangles are.
     #[inline(always)]
     pub fn corners<P: Places>(self) -> [P; 3] {
-        let words = &self.words[3 * self.vertices..];
-        let corner = |i: usize| P::new([words[2 * i].to_bits(), words[2 * i + 1].to_bits()]);
-        [corner(0), corner(1), corner(2)]
+        let words = &self.words[3 * self.vertices..][..6];
+        let pair = |i: usize| [words[i].to_bits(), words[i + 1].to_bits()];
+        [P::new(pair(0)), P::new(pair(2)), P::new(pair(4))]
     }
 
     /// How many triangles there are.

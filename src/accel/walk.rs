@@ -66,7 +66,7 @@ impl Accel {
                 child = node.children[(lane ^ slabs.flip) as usize % LANES];
                 let others = lanes ^ 1 << lane;
                 waiting = enters.push(stack, waiting, others, &node.children, slabs.flip);
-            } else if let Some(next) = stack.pop(&mut waiting, start.waiting, t_max) {
+            } else if let Some(next) = stack.pop(&mut waiting, start.waiting, slabs.end) {
                 child = next;
             } else {
                 break;
@@ -103,7 +103,7 @@ impl Accel {
                         }
                     }
                 }
-                match stack.pop(&mut waiting, start.waiting, t_max) {
+                match stack.pop(&mut waiting, start.waiting, slabs.end) {
                     Some(next) => child = next,
                     None => break 'nodes,
                 }

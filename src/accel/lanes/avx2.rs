@@ -5,7 +5,7 @@ use std::arch::x86_64::*;
 use super::{LANES, Lanes, Mask, Places};
 use crate::geometry::Ray;
 
-/// Sixteen f32 in two registers. Only code that [`super::super::path::Path::Avx2`] leads to may touch one:
+/// Sixteen f32 in two registers. Only code that [`crate::accel::Path::Avx2`] leads to may touch one:
 /// each `unsafe` below is the use of an instruction that such a processor has.
 #[derive(Clone, Copy)]
 pub struct Avx2(__m256, __m256);
@@ -157,7 +157,7 @@ impl Lanes for Avx2 {
 /// All bits of the lanes of the lower half of a mask.
 #[inline(always)]
 fn lanes_of(mask: Mask) -> __m256 {
-    // SAFETY: called from above.
+    // SAFETY: takes or makes such vectors, for which the processor has the instructions.
     unsafe {
         let bits = _mm256_set_epi32(128, 64, 32, 16, 8, 4, 2, 1);
         let chosen = _mm256_and_si256(_mm256_set1_epi32(i32::from(mask)), bits);
@@ -186,7 +186,7 @@ fn columns(rays: &[Ray]) -> [__m256; 8] {
 /// The columns of the four-by-four matrices in each half of four rows.
 #[inline(always)]
 fn four(a: __m256, b: __m256, c: __m256, d: __m256) -> [__m256; 4] {
-    // SAFETY: called from above.
+    // SAFETY: takes or makes such vectors, for which the processor has the instructions.
     unsafe {
         let (ab, cd) = (_mm256_unpacklo_ps(a, b), _mm256_unpacklo_ps(c, d));
         let (ab2, cd2) = (_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d));
@@ -220,7 +220,7 @@ impl Places for Places256 {
 /// Eight lanes of sixteen, by the lowest four bits of `places`.
 #[inline(always)]
 fn at(from: Avx2, places: __m256i) -> __m256 {
-    // SAFETY: called from above.
+    // SAFETY: takes or makes such vectors, for which the processor has the instructions.
     unsafe {
         let low = _mm256_permutevar8x32_ps(from.0, places);
         let high = _mm256_permutevar8x32_ps(from.1, places);

@@ -6,7 +6,7 @@ use super::{LANES, Lanes, Mask, Places};
 use crate::accel::stack::Stack;
 use crate::geometry::Ray;
 
-/// Sixteen f32 in a register. Only code that [`super::super::path::Path::Avx512`] leads to may touch
+/// Sixteen f32 in a register. Only code that [`crate::accel::Path::Avx512`] leads to may touch
 /// one: each `unsafe` below is the use of an instruction that such a processor has.
 #[derive(Clone, Copy)]
 pub struct Avx512(__m512);
@@ -176,7 +176,7 @@ impl Lanes for Avx512 {
 /// `i ^ flip` for each lane i.
 #[inline(always)]
 fn flips(flip: u32) -> __m512i {
-    // SAFETY: called from above.
+    // SAFETY: takes or makes such vectors, for which the processor has the instructions.
     unsafe {
         let lanes = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
         _mm512_xor_si512(lanes, _mm512_set1_epi32(flip as i32))
@@ -186,7 +186,7 @@ fn flips(flip: u32) -> __m512i {
 /// The columns of the four-by-four matrices in each quarter of four rows.
 #[inline(always)]
 fn columns(a: __m512, b: __m512, c: __m512, d: __m512) -> [__m512; 4] {
-    // SAFETY: called from above.
+    // SAFETY: takes or makes such vectors, for which the processor has the instructions.
     unsafe {
         let (ab, cd) = (_mm512_unpacklo_ps(a, b), _mm512_unpacklo_ps(c, d));
         let (ab2, cd2) = (_mm512_unpackhi_ps(a, b), _mm512_unpackhi_ps(c, d));
@@ -205,7 +205,7 @@ fn columns(a: __m512, b: __m512, c: __m512, d: __m512) -> [__m512; 4] {
 /// They have to be there.
 #[inline(always)]
 unsafe fn beside(ray: *const Ray) -> __m512 {
-    // SAFETY: called from above.
+    // SAFETY: takes or makes such vectors, for which the processor has the instructions.
     unsafe {
         let other = _mm256_loadu_ps(ray.add(4).cast());
         _mm512_insertf32x8::<1>(_mm512_castps256_ps512(_mm256_loadu_ps(ray.cast())), other)
@@ -215,7 +215,7 @@ unsafe fn beside(ray: *const Ray) -> __m512 {
 /// The even quarters of both, and the odd ones.
 #[inline(always)]
 fn halves(a: __m512, b: __m512) -> [Avx512; 2] {
-    // SAFETY: called from above.
+    // SAFETY: takes or makes such vectors, for which the processor has the instructions.
     unsafe {
         [Avx512(_mm512_shuffle_f32x4::<0x88>(a, b)), Avx512(_mm512_shuffle_f32x4::<0xdd>(a, b))]
     }
@@ -230,7 +230,7 @@ fn quarters(
     d: __m512,
     f: impl Fn(__m512, __m512) -> __m512,
 ) -> __m512 {
-    // SAFETY: called from above.
+    // SAFETY: takes or makes such vectors, for which the processor has the instructions.
     unsafe {
         // Two quarters of each vector: a, a, b, b and c, c, d, d.
         let ab = f(_mm512_shuffle_f32x4::<0x44>(a, b), _mm512_shuffle_f32x4::<0xee>(a, b));

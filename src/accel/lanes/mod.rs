@@ -30,7 +30,8 @@ pub trait Places: Copy {
     fn new(words: [u32; 2]) -> Self;
 }
 
-/// Sixteen f32.
+/// Sixteen f32. Only [`super::path`] chooses between the types that have this trait, and asks the processor
+/// first: all others use instructions that it may not have.
 pub trait Lanes: Copy {
     type Places: Places;
 
@@ -64,11 +65,11 @@ pub trait Lanes: Copy {
     fn eq(self, other: Self) -> Mask;
     /// `other` in the lanes of `mask`.
     fn or(self, mask: Mask, other: Self) -> Self;
-    /// The least of all; NaN may be left out.
+    /// The least of all; undefined if one is NaN.
     fn least(self) -> f32;
-    /// The largest of all; NaN may be left out.
+    /// The largest of all; undefined if one is NaN.
     fn greatest(self) -> f32;
-    /// The least and the largest lane of each of four vectors; NaN may be left out.
+    /// The least and the largest lane of each of four vectors; undefined if one is NaN.
     #[inline(always)]
     fn extremes([a, b, c, d]: [Self; 4]) -> [[f32; 4]; 2] {
         [

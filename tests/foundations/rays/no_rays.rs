@@ -65,6 +65,26 @@ fn directions_of_any_length() {
     }
 }
 
+/// Rays shorter than the smallest normal number, together as alone. Caught: the length of a beam inverted,
+/// which overflows.
+#[test]
+fn rays_as_short_as_floats_go() {
+    let corners = [Vec3::new(-1.0, -1.0, 0.0), Vec3::new(1.0, -1.0, 0.0), Vec3::Y];
+    let accel = Accel::build(&[soup(&[corners])]);
+    for (trial, tiny) in [1e-45, 1e-40, 1e-39, 1e-38, 1e-37].into_iter().enumerate() {
+        let ray = |i: usize| Ray {
+            t_max: 2.0 * tiny,
+            ..Ray::new(Vec3::new(0.01 * (i / 2) as f32, 0.0, -tiny), Vec3::Z)
+        };
+        let rays: Vec<Ray> = (0..64).map(ray).collect();
+        let mut hits = vec![Hit::MISS; rays.len()];
+        accel.intersect(&rays, &mut hits);
+        for (i, hit) in hits.iter().enumerate() {
+            assert_eq!(*hit, accel.intersect1(&rays[i]), "trial {trial}, ray {i}");
+        }
+    }
+}
+
 /// Long directions in small scenes and short ones in large scenes: t is right though it is as small as
 /// 1e-26 or as large as 1e30. Caught: z scaled to be t before it is multiplied with the edge functions.
 #[test]
@@ -89,10 +109,24 @@ fn directions_of_any_length_in_scenes_of_any_size() {
 }
 
 /// A direction that is no number hits nothing, next to good rays in a batch too; and the good ones hit.
-/// Caught: as above; eight rays walked in the octant of the first.
+/// Caught: as above; eight rays walked in the octant of the first; zero taken for backwards, whose quotients
+/// are NaN.
 #[test]
 fn one_bad_ray_spoils_no_batch() {
     let accel = Accel::build(&[lumpy(3, 4)]);
+    // Beams of rays that are all but the same, forwards and backwards.
+    for (place, z) in (0..64).flat_map(|place| [(place, 1.0), (place, -1.0)]) {
+        for bad in [Vec3::ZERO, -Vec3::ZERO, Vec3::NAN, Vec3::X * f32::NAN, 1e-45 * Vec3::Z] {
+            let ray = |i: usize| Ray::new(Vec3::ZERO, Vec3::new(0.1, 0.2 + 1e-3 * i as f32, z));
+            let mut rays: Vec<Ray> = (0..128).map(ray).collect();
+            rays[place].d = bad;
+            let mut hits = vec![Hit::MISS; rays.len()];
+            accel.intersect(&rays, &mut hits);
+            for (i, hit) in hits.iter().enumerate().filter(|&(i, _)| i != place) {
+                assert_eq!(*hit, accel.intersect1(&rays[i]), "{bad} at {place}, ray {i}");
+            }
+        }
+    }
     for place in 0..40 {
         for bad in [Vec3::ZERO, Vec3::NAN, Vec3::X * f32::NAN, Vec3::INFINITY, -Vec3::ZERO] {
             let mut rays = vec![Ray::new(Vec3::ZERO, Vec3::new(0.1, 0.2, 1.0)); 40];
