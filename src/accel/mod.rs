@@ -13,6 +13,7 @@ mod binary;
 mod build;
 mod bundle;
 mod collapse;
+mod edges;
 mod frustum;
 mod hit;
 mod lanes;

@@ -1,5 +1,6 @@
 //! [`Needle`]: a ray against the triangles of a leaf.
 
+use super::edges::edge;
 use super::lanes::{Lanes, Mask, splat3};
 use super::triangles::Leaf;
 use crate::shape::{ShearedRay, TriangleHit};
@@ -75,10 +76,4 @@ pub fn hit(
 ) -> Option<TriangleHit> {
     let corners = leaf.corners_of(lane);
     sheared.intersect_at(|axis| leaf.coordinates(corners, axis), t_min, t_max)
-}
-
-/// Twice the signed area of the triangle (origin, p, q) seen along z.
-#[inline(always)]
-pub fn edge<L: Lanes>(px: L, py: L, qx: L, qy: L) -> L {
-    px.mul(qy).sub(py.mul(qx))
 }

@@ -2,13 +2,13 @@
 
 use glam::Vec3A;
 
+use super::edges::{edge, least_depth, sheared};
 use super::lanes::{LANES, Lanes, Mask, splat3};
-use super::needle::{Needle, edge, hit};
+use super::needle::{Needle, hit};
 use super::node::Node;
 use super::triangles::Leaf;
 use super::{Accel, Hit};
 use crate::geometry::Ray;
-use crate::geometry::float::gamma;
 use crate::shape::{ShearedRay, TriangleHit};
 
 /// Sixteen rays that are longest in the same axis and run along it in the same sense, with the nearest hit
@@ -279,33 +279,4 @@ impl<'a, L: Lanes> Packet<'a, L> {
 #[inline(never)]
 fn hit_apart(ray: &Ray, leaf: Leaf, lane: u32) -> Option<TriangleHit> {
     hit(&ShearedRay::new(ray), leaf, lane, ray.t_min, ray.t_max)
-}
-
-/// The bound on the error of the depth, as for one triangle.
-#[inline(always)]
-fn least_depth<L: Lanes>([a, b, c]: [[L; 3]; 3], e: [L; 3], determinant: L) -> L {
-    let max_x = largest(a[0], b[0], c[0]);
-    let max_y = largest(a[1], b[1], c[1]);
-    let max_z = largest(a[2], b[2], c[2]);
-    let (gamma2, gamma3, gamma5) = (L::splat(gamma(2)), L::splat(gamma(3)), L::splat(gamma(5)));
-    let delta_z = gamma3.mul(max_z);
-    let delta_x = gamma5.mul(max_x.add(max_z));
-    let delta_y = gamma5.mul(max_y.add(max_z));
-    let products = gamma2.mul(max_x).mul(max_y).add(delta_y.mul(max_x)).add(delta_x.mul(max_y));
-    let delta_e = L::splat(2.0).mul(products);
-    let max_e = largest(e[0], e[1], e[2]);
-    let sum = gamma3.mul(max_e).mul(max_z).add(delta_e.mul(max_z)).add(delta_z.mul(max_e));
-    L::splat(3.0).mul(sum).div(determinant.abs())
-}
-
-/// The largest absolute value of three.
-#[inline(always)]
-fn largest<L: Lanes>(a: L, b: L, c: L) -> L {
-    a.abs().max(b.abs()).max(c.abs())
-}
-
-/// x or y of three points, after z was added in proportion.
-#[inline(always)]
-fn sheared<L: Lanes>([a, b, c]: [L; 3], shear: L, z: [L; 3]) -> [L; 3] {
-    [a.add(shear.mul(z[0])), b.add(shear.mul(z[1])), c.add(shear.mul(z[2]))]
 }

@@ -139,7 +139,7 @@ impl Triangles {
     #[inline(always)]
     pub fn leaf(&self, place: u32, vertices: usize) -> Leaf<'_> {
         let first = ALIGNMENT * place as usize;
-        // The longest leaf: what is loaded from it never reaches beyond.
+        // As long as it may be at most: no vector that is loaded from it reaches beyond.
         Leaf { words: &self.words[first..first + 3 * vertices + HEAD + LANES], vertices }
     }
 }

@@ -1,0 +1,39 @@
+//! The steps of the triangle test in all lanes, as [`crate::shape::ShearedRay`] takes them for one triangle.
+
+use super::lanes::Lanes;
+use crate::geometry::float::gamma;
+
+/// Twice the signed area of the triangle (origin, p, q) seen along z.
+#[inline(always)]
+pub fn edge<L: Lanes>(px: L, py: L, qx: L, qy: L) -> L {
+    px.mul(qy).sub(py.mul(qx))
+}
+
+/// The bound on the error of the depth, as for one triangle.
+#[inline(always)]
+pub fn least_depth<L: Lanes>([a, b, c]: [[L; 3]; 3], e: [L; 3], determinant: L) -> L {
+    let max_x = largest(a[0], b[0], c[0]);
+    let max_y = largest(a[1], b[1], c[1]);
+    let max_z = largest(a[2], b[2], c[2]);
+    let (gamma2, gamma3, gamma5) = (L::splat(gamma(2)), L::splat(gamma(3)), L::splat(gamma(5)));
+    let delta_z = gamma3.mul(max_z);
+    let delta_x = gamma5.mul(max_x.add(max_z));
+    let delta_y = gamma5.mul(max_y.add(max_z));
+    let products = gamma2.mul(max_x).mul(max_y).add(delta_y.mul(max_x)).add(delta_x.mul(max_y));
+    let delta_e = L::splat(2.0).mul(products);
+    let max_e = largest(e[0], e[1], e[2]);
+    let sum = gamma3.mul(max_e).mul(max_z).add(delta_e.mul(max_z)).add(delta_z.mul(max_e));
+    L::splat(3.0).mul(sum).div(determinant.abs())
+}
+
+/// The largest absolute value of three.
+#[inline(always)]
+fn largest<L: Lanes>(a: L, b: L, c: L) -> L {
+    a.abs().max(b.abs()).max(c.abs())
+}
+
+/// x or y of three points, after z was added in proportion.
+#[inline(always)]
+pub fn sheared<L: Lanes>([a, b, c]: [L; 3], shear: L, z: [L; 3]) -> [L; 3] {
+    [a.add(shear.mul(z[0])), b.add(shear.mul(z[1])), c.add(shear.mul(z[2]))]
+}
