@@ -94,7 +94,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             fov: 65.0,
             ..CameraSettings::default()
         })
-        .integrator(IntegratorSettings::Direct)
+        .integrator(IntegratorSettings::direct())
         .sampler(SamplerSettings { kind: SamplerKind::Stratified, spp: 16, seed: 0 })
         .material("lacquer", Lacquer { base: Spectrum::new(0.05, 0.3, 0.2), gloss })
         .shape("dragon", dragon, "lacquer")

@@ -61,7 +61,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             fov: 75.0,
             ..CameraSettings::default()
         })
-        .integrator(IntegratorSettings::Direct)
+        .integrator(IntegratorSettings::direct())
         .sampler(SamplerSettings { kind: SamplerKind::Stratified, spp: 16, seed: 0 })
         .material("jade", MatteMaterial::new([0.1, 0.5, 0.25]).with_sigma(20.0))
         .material("pond", MatteMaterial::new(checkers).with_bump(ripples))

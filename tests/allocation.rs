@@ -82,8 +82,8 @@ fn rendering_allocates_nothing_after_set_up() {
     let chapter = IntegratorSettings::Chapter { highlight: true };
     for (integrator, kind) in [
         (chapter, SamplerKind::Independent),
-        (IntegratorSettings::Direct, SamplerKind::Independent),
-        (IntegratorSettings::Direct, SamplerKind::Stratified),
+        (IntegratorSettings::direct(), SamplerKind::Independent),
+        (IntegratorSettings::direct(), SamplerKind::Stratified),
     ] {
         let scene = ball_over_floor(UVec2::new(100, 80))
             .sampler(SamplerSettings { kind, spp: 16, seed: 0 })

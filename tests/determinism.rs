@@ -16,8 +16,8 @@ const RESOLUTION: UVec2 = UVec2::new(53, 37);
 fn scene(kind: SamplerKind) -> SceneBuilder {
     ball_over_floor(RESOLUTION)
         .camera(CameraSettings { lens_radius: 0.2, focal_distance: 4.0, ..chapter_camera() })
-        .sampler(SamplerSettings { kind, spp: 5, seed: 7 })
-        .integrator(IntegratorSettings::Direct)
+        .sampler(SamplerSettings { kind, spp: 5, seed: 7, ..Default::default() })
+        .integrator(IntegratorSettings::direct())
         .light(PointLight::new(Vec3::new(10.0, 10.0, -10.0), Spectrum::splat(900.0)))
         .light(PointLight::new(Vec3::new(-5.0, 3.0, 1.0), Spectrum::new(0.0, 20.0, 40.0)))
 }
@@ -89,7 +89,7 @@ fn crop_is_a_part_of_the_whole() {
 #[test]
 fn seed_decides() {
     let with = |seed| {
-        let sampler = SamplerSettings { kind: SamplerKind::Independent, spp: 2, seed };
+        let sampler = SamplerSettings { spp: 2, seed, ..Default::default() };
         picture(scene(SamplerKind::Independent).sampler(sampler), 2, 16).color
     };
     assert_eq!(with(1), with(1));

@@ -148,7 +148,7 @@ fn two_lights_add_up() {
     let lights = [Vec3::new(10.0, 10.0, -10.0), Vec3::new(-8.0, 6.0, -2.0)];
     let with = |lights: &[Vec3]| {
         let mut builder = ball_over_floor(UVec2::new(40, 30));
-        builder = builder.integrator(lobe::scene::IntegratorSettings::Direct);
+        builder = builder.integrator(lobe::scene::IntegratorSettings::direct());
         for &position in lights {
             builder = builder.light(PointLight::new(position, Spectrum::splat(300.0)));
         }

@@ -29,7 +29,7 @@ fn from_above(material: MatteMaterial) -> SceneBuilder {
             ..CameraSettings::default()
         })
         .resolution(16, 16)
-        .integrator(IntegratorSettings::Direct)
+        .integrator(IntegratorSettings::direct())
         .sampler(SamplerSettings { kind: SamplerKind::Independent, spp: 4, seed: 0 })
         .material("floor", material)
         .shape("floor", floor(-2.0, 6.0), "floor")

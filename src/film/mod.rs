@@ -2,6 +2,7 @@
 
 mod display;
 mod exr;
+mod filter;
 mod output;
 mod picture;
 mod png;
@@ -9,6 +10,7 @@ mod sums;
 
 pub use display::Display;
 pub use exr::write_exr;
+pub use filter::Filter;
 pub use output::{OutputError, check_writable};
 pub use picture::{Layers, Metadata, Picture, Window};
 pub use png::write_png;

@@ -16,9 +16,13 @@ impl Integrator for DirectIntegrator {
             let f = bsdf.f(si.wo(), light.wi, BxdfFlags::all());
             // Light that will not be reflected need not be asked for.
             if !f.is_black() {
+                let ray = match light.from {
+                    Some(from) => si.spawn_ray_to(from),
+                    None => si.spawn_ray(light.wi),
+                };
                 let cos_theta = light.wi.dot(si.shading_n()).abs();
                 let radiance = f * light.li * (cos_theta / light.pdf);
-                shadow.push(sample, si.spawn_ray_to(light.from), radiance);
+                shadow.push(sample, ray, radiance);
             }
         });
         wave.counters.shadow_rays += wave.shadow.trace(scene, &mut wave.radiance);

@@ -30,7 +30,8 @@ pub trait Integrator: Send + Sync {
 pub(crate) fn from_settings(settings: &IntegratorSettings) -> Box<dyn Integrator> {
     match *settings {
         IntegratorSettings::Chapter { highlight } => Box::new(ChapterIntegrator { highlight }),
-        IntegratorSettings::Direct => Box::new(DirectIntegrator),
+        IntegratorSettings::Direct { .. } => Box::new(DirectIntegrator),
+        IntegratorSettings::Path { .. } => Box::new(DirectIntegrator),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use super::{Light, LightSample};
+use super::{BoundingSphere, Light, LightSample};
 use crate::Spectrum;
 
 /// A light without extent that shines alike in all directions (PBRT 3rd edition, section 12.3).
@@ -33,8 +33,13 @@ impl Light for PointLight {
             li: self.intensity / distance2,
             wi: to_light / distance2.sqrt(),
             pdf: 1.0,
-            from: self.position,
+            from: Some(self.position),
         };
         (distance2 > 0.0).then_some(sample)
+    }
+
+    /// 4π I.
+    fn power(&self, _scene: &BoundingSphere) -> Spectrum {
+        self.intensity * (4.0 * std::f32::consts::PI)
     }
 }

@@ -162,7 +162,10 @@ pub fn render_with(
 /// The sampler that the settings ask for.
 fn sampler_from_settings(settings: &SamplerSettings) -> Box<dyn Sampler> {
     match settings.kind {
-        SamplerKind::Independent => Box::new(IndependentSampler::new(settings.spp, settings.seed)),
-        SamplerKind::Stratified => Box::new(StratifiedSampler::new(settings.spp, settings.seed)),
+        SamplerKind::Independent => Box::new(IndependentSampler::new(settings.seed)),
+        SamplerKind::Stratified => {
+            Box::new(StratifiedSampler::new(settings.spp / settings.sets(), settings.seed))
+        }
+        SamplerKind::Sobol | SamplerKind::BlueNoise => todo!(),
     }
 }

@@ -53,14 +53,14 @@ impl<'a> Worker<'a> {
     /// that its sum does not depend on how the image is cut.
     pub fn render(&mut self, window: Window) {
         self.tile.reset(window);
-        let spp = self.sampler.samples_per_pixel() as usize;
+        let spp = self.scene.sampler().spp as usize;
         let width = window.size().x as usize;
         let samples = window.area() * spp;
         for first in (0..samples).step_by(WAVE) {
             let ids = (first..samples.min(first + WAVE)).map(|number| {
                 let (pixel, index) = (number / spp, number % spp);
                 let place = UVec2::new((pixel % width) as u32, (pixel / width) as u32);
-                SampleId { pixel: window.min + place, index: index as u32 }
+                SampleId { pixel: window.min + place, set: 0, index: index as u32 }
             });
             self.wave.begin(self.scene, self.sampler, ids);
             self.integrator.shade(self.scene, self.sampler, &mut self.wave);

@@ -2,7 +2,7 @@
 
 use super::SampleId;
 
-/// A well-mixed 64-bit number for every (seed, pixel, index, dimension).
+/// A well-mixed 64-bit number for every (seed, pixel, set, index, dimension).
 ///
 /// Each word is folded in by one round of [`mix`], so that no two of them can cancel. The round of the
 /// seed is the caller's, who has to do it only once: `mixed_seed` is [`mix`] of a seed. Without it, the
@@ -10,7 +10,9 @@ use super::SampleId;
 #[inline]
 pub fn hash(mixed_seed: u64, id: SampleId, dimension: u32) -> u64 {
     let pixel = mix(mixed_seed ^ (u64::from(id.pixel.x) << 32 | u64::from(id.pixel.y)));
-    mix(pixel.wrapping_add(u64::from(id.index) << 32 | u64::from(dimension)))
+    // Most pixels have one set: it costs no round.
+    let set = if id.set == 0 { pixel } else { mix(pixel ^ u64::from(id.set)) };
+    mix(set.wrapping_add(u64::from(id.index) << 32 | u64::from(dimension)))
 }
 
 /// A bijection of 64-bit numbers that changes each output bit with probability 1/2 for every changed

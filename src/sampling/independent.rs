@@ -8,20 +8,19 @@ use super::{SampleId, Sampler};
 /// Uniform random numbers that know nothing of each other. Error falls with 1/√n.
 #[derive(Clone, Copy, Debug)]
 pub struct IndependentSampler {
-    samples_per_pixel: u32,
     mixed_seed: u64,
 }
 
 impl IndependentSampler {
-    /// A sampler for `samples_per_pixel` samples, at least 1; each seed gives another image.
-    pub fn new(samples_per_pixel: u32, seed: u64) -> Self {
-        Self { samples_per_pixel: samples_per_pixel.max(1), mixed_seed: mix(seed) }
+    /// Each seed gives another image.
+    pub fn new(seed: u64) -> Self {
+        Self { mixed_seed: mix(seed) }
     }
 }
 
 impl Sampler for IndependentSampler {
-    fn samples_per_pixel(&self) -> u32 {
-        self.samples_per_pixel
+    fn is_correlated(&self) -> bool {
+        false
     }
 
     #[inline]

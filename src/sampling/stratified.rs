@@ -15,7 +15,7 @@ use crate::geometry::float::ONE_MINUS_EPSILON;
 /// stays unbiased. Samples beyond the set begin a new one.
 #[derive(Clone, Copy, Debug)]
 pub struct StratifiedSampler {
-    samples_per_pixel: u32,
+    samples_per_set: u32,
     columns: u32,
     rows: u32,
     /// For what each sample has to itself.
@@ -25,34 +25,34 @@ pub struct StratifiedSampler {
 }
 
 impl StratifiedSampler {
-    /// A sampler for sets of `samples_per_pixel` samples, at least 1; each seed gives another image.
-    pub fn new(samples_per_pixel: u32, seed: u64) -> Self {
-        let samples_per_pixel = samples_per_pixel.max(1);
-        let columns = samples_per_pixel.isqrt();
-        let rows = samples_per_pixel.div_ceil(columns);
+    /// A sampler for sets of `samples_per_set` samples, at least 1; each seed gives another image.
+    pub fn new(samples_per_set: u32, seed: u64) -> Self {
+        let samples_per_set = samples_per_set.max(1);
+        let columns = samples_per_set.isqrt();
+        let rows = samples_per_set.div_ceil(columns);
         let (jitter_seed, order_seed) = (mix(seed), mix(!seed));
-        Self { samples_per_pixel, columns, rows, jitter_seed, order_seed }
+        Self { samples_per_set, columns, rows, jitter_seed, order_seed }
     }
 
     /// The random bits that a set of samples shares in one dimension, and the place within the set.
     #[inline]
     fn shared(&self, id: SampleId, dimension: u32) -> (u64, u32) {
-        let set = SampleId { pixel: id.pixel, index: id.index / self.samples_per_pixel };
-        (hash(self.order_seed, set, dimension), id.index % self.samples_per_pixel)
+        let set = SampleId { index: id.index / self.samples_per_set, ..id };
+        (hash(self.order_seed, set, dimension), id.index % self.samples_per_set)
     }
 }
 
 impl Sampler for StratifiedSampler {
-    fn samples_per_pixel(&self) -> u32 {
-        self.samples_per_pixel
+    fn is_correlated(&self) -> bool {
+        true
     }
 
     #[inline]
     fn get_1d(&self, id: SampleId, dimension: u32) -> f32 {
         let (key, place) = self.shared(id, dimension);
-        let cell = permute(place, self.samples_per_pixel, key);
+        let cell = permute(place, self.samples_per_set, key);
         let jitter = unit_float((hash(self.jitter_seed, id, dimension) >> 32) as u32);
-        within(cell, jitter, self.samples_per_pixel)
+        within(cell, jitter, self.samples_per_set)
     }
 
     #[inline]

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 pub use builder::{SceneBuilder, SceneError};
 pub use file::{LoadReport, LoadedScene, Place, Problem, SceneFileError, parse_scene, read_scene};
-pub use settings::{FilmSettings, IntegratorSettings, SamplerKind, SamplerSettings};
+pub use settings::{FilmSettings, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings};
 
 use crate::accel::{Accel, Hit};
 use crate::camera::{Camera, CameraSettings};
@@ -34,7 +34,7 @@ use crate::shape::TriangleMesh;
 /// let scene = Scene::builder()
 ///     .camera(CameraSettings { eye: Vec3::new(0.0, 2.0, -1.0), look_at: Vec3::Z, ..Default::default() })
 ///     .resolution(64, 48)
-///     .integrator(IntegratorSettings::Direct)
+///     .integrator(IntegratorSettings::direct())
 ///     .material("clay", MatteMaterial::new([0.6, 0.3, 0.2]))
 ///     .shape("floor", floor, "clay")
 ///     .light(PointLight::new(Vec3::Y, Spectrum::splat(10.0)))

@@ -2,7 +2,7 @@
 
 use glam::UVec2;
 
-use crate::film::{Display, Window};
+use crate::film::{Display, Filter, Window};
 
 /// The film's size and look.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +13,8 @@ pub struct FilmSettings {
     pub crop: Option<Window>,
     /// The curve from radiance to the codes of a PNG.
     pub display: Display,
+    /// How much the light around a pixel counts for it.
+    pub filter: Filter,
 }
 
 impl FilmSettings {
@@ -25,7 +27,12 @@ impl FilmSettings {
 impl Default for FilmSettings {
     /// 500 × 500 pixels, as in the chapter, shown by the sRGB curve.
     fn default() -> Self {
-        Self { resolution: UVec2::splat(500), crop: None, display: Display::Srgb }
+        Self {
+            resolution: UVec2::splat(500),
+            crop: None,
+            display: Display::Srgb,
+            filter: Filter::Box,
+        }
     }
 }
 
@@ -37,6 +44,10 @@ pub enum SamplerKind {
     Independent,
     /// [`StratifiedSampler`](crate::sampling::StratifiedSampler).
     Stratified,
+    /// [`SobolSampler`](crate::sampling::SobolSampler).
+    Sobol,
+    /// [`BlueNoiseSampler`](crate::sampling::BlueNoiseSampler).
+    BlueNoise,
 }
 
 /// Which samples are taken.
@@ -48,12 +59,28 @@ pub struct SamplerSettings {
     pub spp: u32,
     /// Each seed gives another set of samples.
     pub seed: u64,
+    /// Into how many independent sets a sampler whose samples know of each other divides those of a pixel. From
+    /// how far their means differ the film tells its error, which one set cannot: see
+    /// [`SamplerSettings::sets`].
+    pub replicates: u32,
+}
+
+impl SamplerSettings {
+    /// How many independent sets the samples of a pixel are divided into, all of the same size: the largest
+    /// divisor of `spp` that is not above `replicates`; one set if the samples do not know of each other.
+    pub fn sets(&self) -> u32 {
+        if self.kind == SamplerKind::Independent {
+            return 1;
+        }
+        let most = self.replicates.clamp(1, self.spp.max(1));
+        (1..=most).rev().find(|sets| self.spp.is_multiple_of(*sets)).unwrap_or(1)
+    }
 }
 
 impl Default for SamplerSettings {
     /// 64 independent samples.
     fn default() -> Self {
-        Self { kind: SamplerKind::Independent, spp: 64, seed: 0 }
+        Self { kind: SamplerKind::Independent, spp: 64, seed: 0, replicates: 2 }
     }
 }
 
@@ -66,7 +93,48 @@ pub enum IntegratorSettings {
         highlight: bool,
     },
     /// Direct light: see [`DirectIntegrator`](crate::integrator::DirectIntegrator).
-    Direct,
+    Direct {
+        /// How directions to lights are drawn.
+        strategy: LightStrategy,
+    },
+    /// Light of any number of reflections: see [`PathIntegrator`](crate::integrator::PathIntegrator).
+    Path {
+        /// The most reflections that a path has.
+        max_depth: u32,
+        /// Whether paths that carry little end at random.
+        roulette: bool,
+        /// How directions to lights are drawn.
+        strategy: LightStrategy,
+    },
+}
+
+/// How the directions that light comes from are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LightStrategy {
+    /// [`Mis`](LightStrategy::Mis) for lights that say it is worth it
+    /// ([`Light::is_worth_sampling`](crate::light::Light::is_worth_sampling)), and
+    /// [`Bsdf`](LightStrategy::Bsdf) for the others.
+    #[default]
+    Auto,
+    /// From the light and from the surface, weighed against each other by the power heuristic
+    /// (Veach 1997, section 9.2.4).
+    Mis,
+    /// From the light alone.
+    Light,
+    /// From the surface alone. Lights without extent, which no ray hits by chance, are drawn from all the same.
+    Bsdf,
+}
+
+impl IntegratorSettings {
+    /// Direct light with the strategy that suits each light.
+    pub const fn direct() -> Self {
+        Self::Direct { strategy: LightStrategy::Auto }
+    }
+
+    /// Paths of up to `max_depth` reflections, with roulette and the strategy that suits each light.
+    pub const fn path(max_depth: u32) -> Self {
+        Self::Path { max_depth, roulette: true, strategy: LightStrategy::Auto }
+    }
 }
 
 impl Default for IntegratorSettings {

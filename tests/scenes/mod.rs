@@ -10,8 +10,8 @@ use lobe::{CameraSettings, MatteMaterial, Scene, TriangleMesh};
 pub struct Middle;
 
 impl Sampler for Middle {
-    fn samples_per_pixel(&self) -> u32 {
-        1
+    fn is_correlated(&self) -> bool {
+        false
     }
     fn get_1d(&self, _id: SampleId, _dimension: u32) -> f32 {
         0.5

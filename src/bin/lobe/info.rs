@@ -81,16 +81,19 @@ fn add_settings(summary: &mut Summary, scene: &Scene) {
         Display::Exposure => "exposure",
     };
     summary.add("display", display);
-    let SamplerSettings { kind, spp, seed } = scene.sampler();
+    let SamplerSettings { kind, spp, seed, replicates: _ } = scene.sampler();
     let kind = match kind {
         SamplerKind::Independent => "independent",
         SamplerKind::Stratified => "stratified",
+        SamplerKind::Sobol => "sobol",
+        SamplerKind::BlueNoise => "blue-noise",
     };
     summary.add("sampler", format!("{kind}, {spp} samples per pixel, seed {seed}"));
     let integrator = match scene.integrator() {
         IntegratorSettings::Chapter { highlight: false } => "chapter",
         IntegratorSettings::Chapter { highlight: true } => "chapter with highlight",
-        IntegratorSettings::Direct => "direct",
+        IntegratorSettings::Direct { .. } => "direct",
+        IntegratorSettings::Path { .. } => "path",
     };
     summary.add("integrator", integrator);
     summary.add("lights", scene.lights().len());

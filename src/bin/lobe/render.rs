@@ -56,9 +56,10 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let outputs = Output::all(&arguments.output, &arguments.scene.path)?;
     let LoadedScene { mut scene, report } = arguments.scene.load()?;
-    let SamplerSettings { kind, spp, seed } = *scene.sampler();
-    let (spp, seed) = (arguments.spp.unwrap_or(spp), arguments.seed.unwrap_or(seed));
-    scene.set_sampler(SamplerSettings { kind, spp, seed });
+    let sampler = *scene.sampler();
+    let (spp, seed) =
+        (arguments.spp.unwrap_or(sampler.spp), arguments.seed.unwrap_or(sampler.seed));
+    scene.set_sampler(SamplerSettings { spp, seed, ..sampler });
 
     let bar = (!arguments.quiet).then(|| Bar::new(scene.film().window().area() as u64));
     let progress = |progress: Progress| bar.iter().for_each(|bar| bar.update(progress));

@@ -87,6 +87,7 @@ fn film(section: &Section) -> Result<FilmSettings, Fault> {
         resolution: section.get_or("resolution", default.resolution)?,
         crop: section.get("crop")?.map(window),
         display: section.choice("display", &displays)?.unwrap_or(default.display),
+        filter: default.filter,
     })
 }
 
@@ -99,21 +100,22 @@ fn sampler(section: &Section) -> Result<SamplerSettings, Fault> {
         kind: section.choice("type", &kinds)?.unwrap_or(default.kind),
         spp: section.get_or("spp", default.spp)?,
         seed: section.get_or("seed", default.seed)?,
+        replicates: default.replicates,
     })
 }
 
 fn integrator(section: &Section) -> Result<IntegratorSettings, Fault> {
     let chapter = IntegratorSettings::Chapter { highlight: false };
-    let kinds = [("chapter", chapter), ("direct", IntegratorSettings::Direct)];
+    let kinds = [("chapter", chapter), ("direct", IntegratorSettings::direct())];
     match section.choice("type", &kinds)?.unwrap_or_default() {
         IntegratorSettings::Chapter { highlight } => {
             section.only(&["type", "highlight"])?;
             let highlight = section.get_or("highlight", highlight)?;
             Ok(IntegratorSettings::Chapter { highlight })
         }
-        IntegratorSettings::Direct => {
+        other => {
             section.only(&["type"])?;
-            Ok(IntegratorSettings::Direct)
+            Ok(other)
         }
     }
 }

@@ -10,7 +10,7 @@ const TRIALS: u32 = 1 << 18;
 
 /// The stratum of one place in set number `set`.
 fn stratum(sampler: &StratifiedSampler, length: u32, set: u32, place: u32) -> usize {
-    let id = SampleId { pixel: UVec2::new(set, 77), index: place };
+    let id = SampleId { pixel: UVec2::new(set, 77), set: 0, index: place };
     // A sample on the upper border of its stratum, by rounding, counts for the next: 1 in 10^4 at most.
     let x = f64::from(sampler.get_1d(id, 0)) * f64::from(length);
     (x as usize).min(length as usize - 1)

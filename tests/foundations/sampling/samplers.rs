@@ -9,12 +9,12 @@ use crate::common::Rng;
 use crate::common::stats::assert_fits;
 
 fn id(x: u32, y: u32, index: u32) -> SampleId {
-    SampleId { pixel: UVec2::new(x, y), index }
+    SampleId { pixel: UVec2::new(x, y), set: 0, index }
 }
 
 fn samplers(spp: u32, seed: u64) -> [(&'static str, Box<dyn Sampler>); 2] {
     [
-        ("independent", Box::new(IndependentSampler::new(spp, seed))),
+        ("independent", Box::new(IndependentSampler::new(seed))),
         ("stratified", Box::new(StratifiedSampler::new(spp, seed))),
     ]
 }
@@ -43,7 +43,7 @@ fn a_sample_is_a_function_of_its_name() {
 /// Caught: 32 bits scaled by 2⁻³², one in 2²⁵ of which rounds to 1.
 #[test]
 fn common_values_stay_below_one() {
-    let sampler = IndependentSampler::new(1, 1);
+    let sampler = IndependentSampler::new(1);
     let below = (0..1 << 27).all(|i| sampler.get_2d(id(1, 2, i), 0).max_element() < 1.0);
     assert!(below);
 }
