@@ -10,7 +10,7 @@ use lobe::bxdf::{Arena, Bsdf, TransportMode};
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::integrator::DirectIntegrator;
 use lobe::interaction::{Shading, SurfaceInteraction};
-use lobe::light::{Light, LightSample};
+use lobe::light::{BoundingSphere, Light, LightSample};
 use lobe::material::Material;
 use lobe::render::{RenderError, Rendered, render_with};
 use lobe::scene::{IntegratorSettings, SamplerKind, SamplerSettings, SceneBuilder};
@@ -30,7 +30,7 @@ fn from_above(material: MatteMaterial) -> SceneBuilder {
         })
         .resolution(16, 16)
         .integrator(IntegratorSettings::direct())
-        .sampler(SamplerSettings { kind: SamplerKind::Independent, spp: 4, seed: 0 })
+        .sampler(SamplerSettings { spp: 4, ..Default::default() })
         .material("floor", material)
         .shape("floor", floor(-2.0, 6.0), "floor")
 }
@@ -181,7 +181,11 @@ impl Light for Panel {
         let wi = to_light.normalize();
         // Solid angle of an area: dω = cos θ dA / d².
         let pdf = to_light.length_squared() / (4.0 * wi.y);
-        Some(LightSample { li: Spectrum::WHITE, wi, pdf, from })
+        Some(LightSample { li: Spectrum::WHITE, wi, pdf, from: Some(from) })
+    }
+
+    fn power(&self, _scene: &BoundingSphere) -> Spectrum {
+        Spectrum::WHITE
     }
 }
 
@@ -202,7 +206,7 @@ fn lights_with_an_extent_are_sampled() {
     let scene = from_above(MatteMaterial::new([1.0; 3]))
         .camera(tiny)
         .resolution(1, 1)
-        .sampler(SamplerSettings { kind: SamplerKind::Independent, spp, seed: 5 })
+        .sampler(SamplerSettings { spp, seed: 5, ..Default::default() })
         .light(Panel)
         .build()
         .unwrap();
