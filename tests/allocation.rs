@@ -86,7 +86,7 @@ fn rendering_allocates_nothing_after_set_up() {
         (IntegratorSettings::direct(), SamplerKind::Stratified),
     ] {
         let scene = ball_over_floor(UVec2::new(100, 80))
-            .sampler(SamplerSettings { kind, spp: 16, seed: 0 })
+            .sampler(SamplerSettings { kind, spp: 16, ..Default::default() })
             .integrator(integrator)
             .material("red", ForeignMaterial)
             .light(PointLight::new(Vec3::new(10.0, 10.0, -10.0), Spectrum::splat(900.0)))

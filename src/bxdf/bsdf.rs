@@ -159,6 +159,17 @@ impl<'a> Bsdf<'a> {
         self.guarded_pdf(self.mean_pdf(local_wo, self.frame.to_local(wi), flags))
     }
 
+    /// [`f`](Bsdf::f) and [`pdf`](Bsdf::pdf) in one go.
+    #[inline]
+    pub fn f_and_pdf(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> (Spectrum, f32) {
+        let (local_wo, local_wi) = (self.frame.to_local(wo), self.frame.to_local(wi));
+        if local_wo.z == 0.0 {
+            return (Spectrum::BLACK, 0.0);
+        }
+        let f = self.sum(local_wo, local_wi, self.side(wo, wi), flags);
+        (self.guarded(f), self.guarded_pdf(self.mean_pdf(local_wo, local_wi, flags)))
+    }
+
     /// The share of a uniform light that leaves along the world direction `wo`: see [`BxDF::rho_hd`].
     pub fn rho_hd(&self, wo: Vec3, u: &[Vec2], flags: BxdfFlags) -> Spectrum {
         let wo = self.frame.to_local(wo);

@@ -1,10 +1,11 @@
 //! [`ChapterIntegrator`]: the chapter's estimator.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
-use super::{Integrator, Lit, Wave, for_each_light};
-use crate::bxdf::BxdfFlags;
+use super::{Integrator, Wave, dimension};
+use crate::bxdf::{BxdfFlags, TransportMode};
 use crate::interaction::SurfaceInteraction;
+use crate::light::LightSample;
 use crate::sampling::Sampler;
 use crate::scene::Scene;
 
@@ -26,12 +27,30 @@ const BRIGHTNESS: f32 = 3.0;
 
 impl Integrator for ChapterIntegrator {
     fn shade(&self, scene: &Scene, sampler: &dyn Sampler, wave: &mut Wave) {
-        for_each_light(scene, sampler, wave, |Lit { sample, si, bsdf, light }, radiance, _| {
-            let f = bsdf.f(si.wo(), light.wi, BxdfFlags::all());
-            let pdf = bsdf.pdf(si.wo(), light.wi, BxdfFlags::all());
-            let factor = if self.highlight { blinn_phong(si, light.wi) } else { 1.0 };
-            radiance[sample] += f * (pdf * BRIGHTNESS * factor);
-        });
+        let Wave { ids, rays, hits, radiance, arena, counters, .. } = wave;
+        for (sample, (ray, hit)) in rays.iter().zip(&*hits).enumerate() {
+            if !hit.is_hit() {
+                continue;
+            }
+            let mut si = scene.interaction(ray, hit);
+            let material = scene.material(hit);
+            let bsdf = material.compute_scattering(&mut si, arena, TransportMode::Radiance, true);
+            for (dimension, light) in (dimension::FIRST_LIGHT..).zip(scene.lights()) {
+                // A light without extent takes no sample.
+                let u = if light.is_delta() {
+                    Vec2::ZERO
+                } else {
+                    sampler.get_2d(ids[sample], dimension)
+                };
+                if let Some(LightSample { wi, .. }) = light.sample_li(si.p(), u) {
+                    let (f, pdf) = bsdf.f_and_pdf(si.wo(), wi, BxdfFlags::all());
+                    let factor = if self.highlight { blinn_phong(&si, wi) } else { 1.0 };
+                    radiance[sample] += f * (pdf * BRIGHTNESS * factor);
+                }
+            }
+            counters.rejected += u64::from(bsdf.rejected());
+        }
+        arena.reset();
     }
 }
 

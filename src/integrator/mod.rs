@@ -2,18 +2,16 @@
 
 mod chapter;
 mod direct;
+mod path;
+mod paths;
+mod transport;
 mod wave;
 
 pub use chapter::ChapterIntegrator;
 pub use direct::DirectIntegrator;
+pub use path::PathIntegrator;
 pub use wave::{Counters, ShadowRays, Wave, dimension};
 
-use glam::Vec2;
-
-use crate::Spectrum;
-use crate::bxdf::{Bsdf, TransportMode};
-use crate::interaction::SurfaceInteraction;
-use crate::light::LightSample;
 use crate::sampling::Sampler;
 use crate::scene::{IntegratorSettings, Scene};
 
@@ -27,48 +25,12 @@ pub trait Integrator: Send + Sync {
 }
 
 /// The integrator that the settings ask for.
-pub(crate) fn from_settings(settings: &IntegratorSettings) -> Box<dyn Integrator> {
-    match *settings {
+pub(crate) fn from_settings(scene: &Scene) -> Box<dyn Integrator> {
+    match *scene.integrator() {
         IntegratorSettings::Chapter { highlight } => Box::new(ChapterIntegrator { highlight }),
-        IntegratorSettings::Direct { .. } => Box::new(DirectIntegrator),
-        IntegratorSettings::Path { .. } => Box::new(DirectIntegrator),
-    }
-}
-
-/// A hit in the light of one light, before anyone has looked what stands between.
-struct Lit<'a> {
-    /// The sample's number in the wave.
-    sample: usize,
-    si: &'a SurfaceInteraction<'a>,
-    bsdf: &'a Bsdf<'a>,
-    light: LightSample,
-}
-
-/// Calls `shade` for each hit of the wave and each light that shines on it, with the radiance of all
-/// samples and with the rays that wait to be traced.
-fn for_each_light(
-    scene: &Scene,
-    sampler: &dyn Sampler,
-    wave: &mut Wave,
-    mut shade: impl FnMut(Lit, &mut [Spectrum], &mut ShadowRays),
-) {
-    let Wave { ids, rays, hits, radiance, shadow, arena, counters } = wave;
-    for (sample, (ray, hit)) in rays.iter().zip(&*hits).enumerate() {
-        if !hit.is_hit() {
-            continue;
+        IntegratorSettings::Direct { strategy } => Box::new(DirectIntegrator::new(scene, strategy)),
+        IntegratorSettings::Path { max_depth, roulette, strategy } => {
+            Box::new(PathIntegrator::new(scene, max_depth, roulette, strategy))
         }
-        let mut si = scene.interaction(ray, hit);
-        let bsdf =
-            scene.material(hit).compute_scattering(&mut si, arena, TransportMode::Radiance, true);
-        for (dimension, light) in (dimension::FIRST_LIGHT..).zip(scene.lights()) {
-            // A light without extent takes no sample.
-            let u =
-                if light.is_delta() { Vec2::ZERO } else { sampler.get_2d(ids[sample], dimension) };
-            if let Some(light) = light.sample_li(si.p(), u) {
-                shade(Lit { sample, si: &si, bsdf: &bsdf, light }, radiance, shadow);
-            }
-        }
-        counters.rejected += u64::from(bsdf.rejected());
     }
-    arena.reset();
 }

@@ -1,5 +1,6 @@
 //! [`Wave`]: the samples that go through an integrator together.
 
+use super::paths::Paths;
 use crate::Spectrum;
 use crate::accel::Hit;
 use crate::bxdf::Arena;
@@ -13,8 +14,26 @@ pub mod dimension {
     pub const FILM: u32 = 0;
     /// The place on the lens, 2D.
     pub const LENS: u32 = 1;
-    /// The place on the first light, 2D; the other lights follow.
+    /// The first one for the lights: those of a hit follow each other, and those of the next reflection
+    /// follow them.
     pub const FIRST_LIGHT: u32 = 2;
+
+    /// Of a hit: the direction in which the path goes on, 2D.
+    pub(crate) const DIRECTION: u32 = 0;
+    /// Of a hit: the place on the light, 2D.
+    pub(crate) const LIGHT: u32 = 1;
+    /// Of a hit: which light, 1D.
+    pub(crate) const CHOICE: u32 = 2;
+    /// Of a hit: whether the path ends, 1D.
+    pub(crate) const ROULETTE: u32 = 3;
+    /// The places on the second light, 2D, and on all others, where each is asked for: direct light, which has one
+    /// reflection.
+    pub(crate) const MORE_LIGHTS: u32 = of_depth(1);
+
+    /// The first dimension of a hit after so many reflections.
+    pub(crate) const fn of_depth(depth: u32) -> u32 {
+        FIRST_LIGHT.wrapping_add(depth.wrapping_mul(4))
+    }
 }
 
 /// What a render did.
@@ -24,6 +43,8 @@ pub struct Counters {
     pub camera_rays: u64,
     /// Rays towards lights.
     pub shadow_rays: u64,
+    /// Rays that go on from a surface to whatever they meet.
+    pub scattered_rays: u64,
     /// What Bsdfs refused: see [`Bsdf::rejected`](crate::bxdf::Bsdf::rejected).
     pub rejected: u64,
 }
@@ -31,13 +52,14 @@ pub struct Counters {
 impl Counters {
     /// All rays.
     pub fn rays(&self) -> u64 {
-        self.camera_rays + self.shadow_rays
+        self.camera_rays + self.shadow_rays + self.scattered_rays
     }
 
     /// Adds what another worker did.
     pub fn add(&mut self, other: &Self) {
         self.camera_rays += other.camera_rays;
         self.shadow_rays += other.shadow_rays;
+        self.scattered_rays += other.scattered_rays;
         self.rejected += other.rejected;
     }
 }
@@ -56,6 +78,8 @@ pub struct Wave {
     pub radiance: Vec<Spectrum>,
     /// Rays towards lights.
     pub shadow: ShadowRays,
+    /// Paths under way.
+    pub(crate) paths: Paths,
     /// Memory for lobes.
     pub arena: Arena,
     /// What was done so far.
@@ -70,7 +94,9 @@ impl Wave {
             rays: Vec::with_capacity(samples),
             hits: Vec::with_capacity(samples),
             radiance: Vec::with_capacity(samples),
-            shadow: ShadowRays::with_capacity(samples * lights),
+            // To each light, or to one and a last one into the sky.
+            shadow: ShadowRays::with_capacity(samples * lights.max(2)),
+            paths: Paths::with_capacity(samples),
             ..Self::default()
         }
     }

@@ -1,6 +1,8 @@
 //! Lights.
 
 mod point;
+mod stub;
+pub use stub::*;
 
 pub use point::PointLight;
 

@@ -91,7 +91,7 @@ pub enum RenderError {
 /// ```
 pub fn render(scene: &Scene, options: &RenderOptions) -> Result<Rendered, RenderError> {
     let sampler = sampler_from_settings(scene.sampler());
-    let integrator = integrator::from_settings(scene.integrator());
+    let integrator = integrator::from_settings(scene);
     render_with(scene, &*integrator, &*sampler, options)
 }
 

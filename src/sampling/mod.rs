@@ -1,11 +1,13 @@
 //! Sampling: warps from the unit square to other domains, and the samplers that fill the square.
 
+mod discrete;
 mod hash;
 mod independent;
 mod sampler;
 mod stratified;
 mod warp;
 
+pub use discrete::Discrete;
 pub use independent::IndependentSampler;
 pub use sampler::{SampleId, Sampler};
 pub use stratified::StratifiedSampler;

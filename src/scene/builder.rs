@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::{FilmSettings, IntegratorSettings, SamplerSettings, Scene, Shape};
+use super::{Emission, FilmSettings, IntegratorSettings, SamplerSettings, Scene, Shape};
+use crate::Spectrum;
 use crate::accel::Accel;
 use crate::camera::{Camera, CameraError, CameraSettings};
 use crate::film::{Display, Window};
-use crate::light::Light;
-use crate::material::Material;
+use crate::light::{AreaLight, Light};
+use crate::material::{Material, MatteMaterial};
 use crate::shape::{MeshError, TriangleMesh};
 
 /// Why a scene cannot be built.
@@ -43,6 +44,14 @@ pub enum SceneError {
     Mesh(String, MeshError),
 }
 
+/// A shape as it was added.
+struct NewShape {
+    name: String,
+    mesh: TriangleMesh,
+    material: Option<String>,
+    emission: Option<Emission>,
+}
+
 /// Collects a scene part by part, in any order, and checks it as a whole at the end.
 #[derive(Default)]
 pub struct SceneBuilder {
@@ -51,7 +60,7 @@ pub struct SceneBuilder {
     sampler: SamplerSettings,
     integrator: IntegratorSettings,
     materials: BTreeMap<String, Arc<dyn Material>>,
-    shapes: Vec<(String, TriangleMesh, String)>,
+    shapes: Vec<NewShape>,
     lights: Vec<Arc<dyn Light>>,
 }
 
@@ -107,12 +116,38 @@ impl SceneBuilder {
 
     /// Adds a mesh in world space, made of the material of that name.
     pub fn shape(
-        mut self,
+        self,
         name: impl Into<String>,
         mesh: TriangleMesh,
         material: impl Into<String>,
     ) -> Self {
-        self.shapes.push((name.into(), mesh, material.into()));
+        self.add_shape(name.into(), mesh, Some(material.into()), None)
+    }
+
+    /// Adds a mesh in world space that sends out light, and reflects none.
+    pub fn lamp(self, name: impl Into<String>, mesh: TriangleMesh, emission: Emission) -> Self {
+        self.add_shape(name.into(), mesh, None, Some(emission))
+    }
+
+    /// Adds a mesh in world space that sends out light, and reflects what the material of that name does.
+    pub fn glowing_shape(
+        self,
+        name: impl Into<String>,
+        mesh: TriangleMesh,
+        material: impl Into<String>,
+        emission: Emission,
+    ) -> Self {
+        self.add_shape(name.into(), mesh, Some(material.into()), Some(emission))
+    }
+
+    pub(super) fn add_shape(
+        mut self,
+        name: String,
+        mesh: TriangleMesh,
+        material: Option<String>,
+        emission: Option<Emission>,
+    ) -> Self {
+        self.shapes.push(NewShape { name, mesh, material, emission });
         self
     }
 
@@ -148,12 +183,26 @@ impl SceneBuilder {
         let camera = self.checked_camera()?;
         let mut shapes = Vec::with_capacity(self.shapes.len());
         let mut meshes = Vec::with_capacity(self.shapes.len());
-        for (name, mesh, material) in self.shapes {
+        let mut lights = self.lights;
+        for NewShape { name, mesh, material, emission } in self.shapes {
             mesh.check().map_err(|error| SceneError::Mesh(name.clone(), error))?;
-            let Some(found) = self.materials.get(&material) else {
-                return Err(SceneError::UnknownMaterial { shape: name, material });
+            let material = match material {
+                Some(material) => match self.materials.get(&material) {
+                    Some(found) => Arc::clone(found),
+                    None => return Err(SceneError::UnknownMaterial { shape: name, material }),
+                },
+                None => Arc::new(MatteMaterial::new(Spectrum::BLACK)),
             };
-            shapes.push(Shape { name, material: Arc::clone(found) });
+            // A mesh without area can neither be seen nor shine.
+            let light = emission
+                .and_then(|Emission { radiance, two_sided }| {
+                    AreaLight::new(&mesh, radiance, two_sided)
+                })
+                .map(|light| {
+                    lights.push(Arc::new(light));
+                    lights.len() - 1
+                });
+            shapes.push(Shape { name, material, light });
             meshes.push(mesh);
         }
         let triangles = meshes.iter().map(|mesh| mesh.indices.len()).sum();
@@ -170,7 +219,7 @@ impl SceneBuilder {
             integrator: self.integrator,
             shapes,
             meshes,
-            lights: self.lights,
+            lights,
             accel,
             build_seconds: start.elapsed().as_secs_f64(),
         })

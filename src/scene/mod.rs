@@ -8,13 +8,15 @@ use std::sync::Arc;
 
 pub use builder::{SceneBuilder, SceneError};
 pub use file::{LoadReport, LoadedScene, Place, Problem, SceneFileError, parse_scene, read_scene};
-pub use settings::{FilmSettings, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings};
+pub use settings::{
+    Emission, FilmSettings, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings,
+};
 
 use crate::accel::{Accel, Hit};
 use crate::camera::{Camera, CameraSettings};
 use crate::geometry::Ray;
 use crate::interaction::SurfaceInteraction;
-use crate::light::Light;
+use crate::light::{BoundingSphere, Light};
 use crate::material::Material;
 use crate::shape::TriangleMesh;
 
@@ -59,6 +61,8 @@ pub struct Scene {
 struct Shape {
     name: String,
     material: Arc<dyn Material>,
+    /// The number of the light that it is.
+    light: Option<usize>,
 }
 
 impl Scene {
@@ -110,6 +114,26 @@ impl Scene {
     /// The shapes' names and meshes, in the order in which they were added.
     pub fn shapes(&self) -> impl Iterator<Item = (&str, &TriangleMesh)> {
         self.shapes.iter().map(|s| s.name.as_str()).zip(&self.meshes)
+    }
+
+    /// A ball around all triangles.
+    pub fn bounding_sphere(&self) -> BoundingSphere {
+        let bounds = self.accel.bounds();
+        if bounds.is_empty() {
+            return BoundingSphere::default();
+        }
+        // Halved first: the sum of two large coordinates is larger.
+        let (min, max) = (bounds.min / 2.0, bounds.max / 2.0);
+        BoundingSphere { center: min + max, radius: (max - min).length() }
+    }
+
+    /// The number of the light that the surface is at a hit.
+    ///
+    /// # Panics
+    /// Like [`Scene::interaction`].
+    #[inline]
+    pub fn light_at(&self, hit: &Hit) -> Option<usize> {
+        self.shapes[hit.shape as usize].light
     }
 
     /// How long the tree took to build, in seconds.

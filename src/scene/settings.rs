@@ -2,6 +2,7 @@
 
 use glam::UVec2;
 
+use crate::Spectrum;
 use crate::film::{Display, Filter, Window};
 
 /// The film's size and look.
@@ -106,6 +107,15 @@ pub enum IntegratorSettings {
         /// How directions to lights are drawn.
         strategy: LightStrategy,
     },
+}
+
+/// Light that a surface sends out, the same in all directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Emission {
+    /// Radiance in W / (m² sr), at least 0 in each band.
+    pub radiance: Spectrum,
+    /// Whether it leaves on both sides, or only where the geometric normal points.
+    pub two_sided: bool,
 }
 
 /// How the directions that light comes from are drawn.

@@ -1,7 +1,7 @@
 //! From a [`Description`] to a scene.
 
 use super::description::{
-    Description, LightDescription, MaterialDescription, ShapeDescription, Source,
+    Description, LightDescription, MaterialDescription, ShapeDescription, ShapeSource, Source,
     TextureDescription,
 };
 use super::document::{Document, Fault};
@@ -9,10 +9,10 @@ use super::error::Problem;
 use super::hint::hint;
 use super::section::full_name;
 use crate::camera::CameraError;
-use crate::light::PointLight;
+use crate::light::{DistantLight, PointLight, SkyLight};
 use crate::material::MatteMaterial;
 use crate::scene::{Scene, SceneError};
-use crate::shape::{ObjReport, read_obj};
+use crate::shape::{ObjMesh, ObjReport, TriangleMesh, read_obj};
 
 /// Looks up all names, reads the meshes and builds the scene. The settings are checked before the
 /// meshes are read, which may take long.
@@ -28,8 +28,17 @@ pub fn build(
         let textures = Textures { textures: &textures, document, material: name };
         builder = builder.material(name, textures.material(material)?);
     }
-    for LightDescription::Point { position, intensity } in lights {
-        builder = builder.light(PointLight::new(position, intensity.into()));
+    for light in lights {
+        builder = match light {
+            LightDescription::Point { position, intensity } => {
+                builder.light(PointLight::new(position, intensity.into()))
+            }
+            // A light knows where it shines from, a file says where to.
+            LightDescription::Distant { direction, irradiance } => {
+                builder.light(DistantLight::new(-direction, irradiance.into()))
+            }
+            LightDescription::Sky { radiance } => builder.light(SkyLight::new(radiance.into())),
+        };
     }
     let fault = |error: SceneError| {
         let mark = document.root.follow(&keys(&error)).mark;
@@ -37,20 +46,29 @@ pub fn build(
     };
     builder.check().map_err(fault)?;
     for (name, shape) in &shapes {
-        if materials.iter().all(|(known, _)| *known != shape.material) {
+        let Some(material) = &shape.material else { continue };
+        if materials.iter().all(|(known, _)| known != material) {
             let known = materials.iter().map(|(known, _)| known.as_str());
-            let problem = unknown("material", &shape.material, known);
+            let problem = unknown("material", material, known);
             return Err(document.fault(&["shape", name, "material"], problem));
         }
     }
     let mut reports = Vec::with_capacity(shapes.len());
-    for (name, ShapeDescription { obj, material, transform }) in shapes {
-        let read =
-            read_obj(&obj).map_err(|error| document.fault(&["shape", &name, "obj"], error))?;
-        let mut mesh = read.mesh;
+    for (name, ShapeDescription { source, material, emission, transform }) in shapes {
+        let mut mesh = match source {
+            ShapeSource::Obj(obj) => {
+                let ObjMesh { mesh, report } = read_obj(&obj)
+                    .map_err(|error| document.fault(&["shape", &name, "obj"], error))?;
+                reports.push(report);
+                mesh
+            }
+            ShapeSource::Rectangle { corner, edges: [u, v] } => {
+                reports.push(ObjReport::default());
+                TriangleMesh::parallelogram(corner, u, v)
+            }
+        };
         mesh.transform(&transform);
-        reports.push(read.report);
-        builder = builder.shape(name, mesh, material);
+        builder = builder.add_shape(name, mesh, material, emission);
     }
     Ok((builder.build().map_err(fault)?, reports))
 }

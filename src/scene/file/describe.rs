@@ -3,18 +3,23 @@
 use glam::{Affine3A, Quat, UVec2, Vec3};
 
 use super::description::{
-    Description, LightDescription, MaterialDescription, ShapeDescription, Source,
+    Description, LightDescription, MaterialDescription, ShapeDescription, ShapeSource, Source,
     TextureDescription,
 };
 use super::document::{Document, Fault};
 use super::section::Section;
-use super::value::{Intensity, Rotation, Scale};
+use super::value::{Direction, Light, Rotation, Scale};
 use crate::camera::CameraSettings;
 use crate::film::{Display, Window};
-use crate::scene::{FilmSettings, IntegratorSettings, SamplerKind, SamplerSettings};
+use crate::scene::{
+    Emission, FilmSettings, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings,
+};
 
 /// Reflects half of the light, as matte does in PBRT if nothing is said.
 const KD: Source = Source::Value(TextureDescription::ConstantColor([0.5; 3]));
+
+/// How often light is reflected if nothing is said, as in PBRT.
+const MAX_DEPTH: u32 = 5;
 
 /// Reads all tables. Names are not looked up yet.
 pub fn describe(document: &Document) -> Result<Description, Fault> {
@@ -92,32 +97,58 @@ fn film(section: &Section) -> Result<FilmSettings, Fault> {
 }
 
 fn sampler(section: &Section) -> Result<SamplerSettings, Fault> {
-    section.only(&["type", "spp", "seed"])?;
+    section.only(&["type", "spp", "seed", "replicates"])?;
     let default = SamplerSettings::default();
-    let kinds =
-        [("independent", SamplerKind::Independent), ("stratified", SamplerKind::Stratified)];
+    let kinds = [
+        ("independent", SamplerKind::Independent),
+        ("stratified", SamplerKind::Stratified),
+        ("sobol", SamplerKind::Sobol),
+        ("blue-noise", SamplerKind::BlueNoise),
+    ];
     Ok(SamplerSettings {
         kind: section.choice("type", &kinds)?.unwrap_or(default.kind),
         spp: section.get_or("spp", default.spp)?,
         seed: section.get_or("seed", default.seed)?,
-        replicates: default.replicates,
+        replicates: section.get_or("replicates", default.replicates)?,
     })
 }
 
 fn integrator(section: &Section) -> Result<IntegratorSettings, Fault> {
     let chapter = IntegratorSettings::Chapter { highlight: false };
-    let kinds = [("chapter", chapter), ("direct", IntegratorSettings::direct())];
+    let kinds = [
+        ("chapter", chapter),
+        ("direct", IntegratorSettings::direct()),
+        ("path", IntegratorSettings::path(MAX_DEPTH)),
+    ];
     match section.choice("type", &kinds)?.unwrap_or_default() {
         IntegratorSettings::Chapter { highlight } => {
             section.only(&["type", "highlight"])?;
             let highlight = section.get_or("highlight", highlight)?;
             Ok(IntegratorSettings::Chapter { highlight })
         }
-        other => {
-            section.only(&["type"])?;
-            Ok(other)
+        IntegratorSettings::Direct { .. } => {
+            section.only(&["type", "strategy"])?;
+            Ok(IntegratorSettings::Direct { strategy: strategy(section)? })
+        }
+        IntegratorSettings::Path { max_depth, roulette, .. } => {
+            section.only(&["type", "max_depth", "roulette", "strategy"])?;
+            Ok(IntegratorSettings::Path {
+                max_depth: section.get_or("max_depth", max_depth)?,
+                roulette: section.get_or("roulette", roulette)?,
+                strategy: strategy(section)?,
+            })
         }
     }
+}
+
+fn strategy(section: &Section) -> Result<LightStrategy, Fault> {
+    let strategies = [
+        ("auto", LightStrategy::Auto),
+        ("mis", LightStrategy::Mis),
+        ("light", LightStrategy::Light),
+        ("bsdf", LightStrategy::Bsdf),
+    ];
+    Ok(section.choice("strategy", &strategies)?.unwrap_or_default())
 }
 
 fn texture(section: &Section) -> Result<TextureDescription, Fault> {
@@ -137,21 +168,59 @@ fn material(section: &Section) -> Result<MaterialDescription, Fault> {
 }
 
 fn light(section: &Section) -> Result<LightDescription, Fault> {
-    section.require_choice("type", &[("point", ())])?;
-    section.only(&["type", "position", "intensity"])?;
-    let Intensity(intensity) = section.require("intensity")?;
-    Ok(LightDescription::Point { position: section.require("position")?, intensity })
+    enum Kind {
+        Point,
+        Distant,
+        Sky,
+    }
+    let kinds = [("point", &Kind::Point), ("distant", &Kind::Distant), ("sky", &Kind::Sky)];
+    match section.require_choice("type", &kinds)? {
+        Kind::Point => {
+            section.only(&["type", "position", "intensity"])?;
+            let Light(intensity) = section.require("intensity")?;
+            Ok(LightDescription::Point { position: section.require("position")?, intensity })
+        }
+        Kind::Distant => {
+            section.only(&["type", "direction", "irradiance"])?;
+            let Light(irradiance) = section.require("irradiance")?;
+            let Direction(direction) = section.require("direction")?;
+            Ok(LightDescription::Distant { direction, irradiance })
+        }
+        Kind::Sky => {
+            section.only(&["type", "radiance"])?;
+            let Light(radiance) = section.require("radiance")?;
+            Ok(LightDescription::Sky { radiance })
+        }
+    }
 }
 
 fn shape(section: &Section, document: &Document) -> Result<ShapeDescription, Fault> {
-    section.only(&["obj", "material", "scale", "rotate", "translate"])?;
+    const COMMON: [&str; 7] =
+        ["type", "material", "emission", "two_sided", "scale", "rotate", "translate"];
+    let is_rectangle = section.choice("type", &[("obj", false), ("rectangle", true)])?;
+    let source = if is_rectangle.unwrap_or(false) {
+        section.only(&[&COMMON[..], &["corner", "edges"]].concat())?;
+        let corner = section.require("corner")?;
+        ShapeSource::Rectangle { corner, edges: section.require("edges")? }
+    } else {
+        section.only(&[&["obj"], &COMMON[..]].concat())?;
+        let obj: String = section.require("obj")?;
+        ShapeSource::Obj(document.resolve(section.mark("obj"), &obj))
+    };
+    let radiance: Option<Light> = section.get("emission")?;
+    let two_sided = section.get_or("two_sided", false)?;
+    let emission = radiance.map(|Light(rgb)| Emission { radiance: rgb.into(), two_sided });
     let Scale(scale) = section.get_or("scale", Scale(Vec3::ONE))?;
     let Rotation(rotation) = section.get_or("rotate", Rotation(Quat::IDENTITY))?;
     let translation = section.get_or("translate", Vec3::ZERO)?;
-    let obj: String = section.require("obj")?;
+    let material = match emission {
+        Some(_) => section.get("material")?,
+        None => Some(section.require("material")?),
+    };
     Ok(ShapeDescription {
-        obj: document.resolve(section.mark("obj"), &obj),
-        material: section.require("material")?,
+        source,
+        material,
+        emission,
         // Scaled first, moved last.
         transform: Affine3A::from_scale_rotation_translation(scale, rotation, translation),
     })

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use glam::{Affine3A, Vec3};
 
 use crate::camera::CameraSettings;
-use crate::scene::{FilmSettings, IntegratorSettings, SamplerSettings};
+use crate::scene::{Emission, FilmSettings, IntegratorSettings, SamplerSettings};
 
 /// A scene before its meshes are read. Lists are in the order of the file.
 pub struct Description {
@@ -54,14 +54,26 @@ pub enum MaterialDescription {
 pub enum LightDescription {
     /// A [`PointLight`](crate::PointLight).
     Point { position: Vec3, intensity: [f32; 3] },
+    /// A [`DistantLight`](crate::light::DistantLight).
+    Distant { direction: Vec3, irradiance: [f32; 3] },
+    /// A [`SkyLight`](crate::light::SkyLight).
+    Sky { radiance: [f32; 3] },
+}
+
+/// Where a shape's triangles come from.
+pub enum ShapeSource {
+    /// An OBJ file.
+    Obj(PathBuf),
+    /// A corner and the edges from there.
+    Rectangle { corner: Vec3, edges: [Vec3; 2] },
 }
 
 /// `[shape.NAME]`
 pub struct ShapeDescription {
-    /// Where the mesh is.
-    pub obj: PathBuf,
-    /// The name of its material.
-    pub material: String,
+    pub source: ShapeSource,
+    /// The name of its material; none for a light that reflects nothing.
+    pub material: Option<String>,
+    pub emission: Option<Emission>,
     /// From the mesh to the world.
     pub transform: Affine3A,
 }

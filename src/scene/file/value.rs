@@ -102,16 +102,29 @@ impl FromValue for UVec2 {
     }
 }
 
-/// Radiant intensity by band.
-pub struct Intensity(pub [f32; 3]);
+/// Radiance, irradiance or intensity by band.
+pub struct Light(pub [f32; 3]);
 
-impl FromValue for Intensity {
+impl FromValue for Light {
     fn from_value(value: &Value) -> Option<Self> {
         FromValue::from_value(value).filter(|i: &[f32; 3]| i.iter().all(|&i| i >= 0.0)).map(Self)
     }
 
     fn expected() -> String {
         "[red, green, blue], each a finite number of at least 0".into()
+    }
+}
+
+/// A direction of any length, brought to unit length.
+pub struct Direction(pub Vec3);
+
+impl FromValue for Direction {
+    fn from_value(value: &Value) -> Option<Self> {
+        unit(Vec3::from_value(value)?).map(Self)
+    }
+
+    fn expected() -> String {
+        "[x, y, z], finite and not all 0".into()
     }
 }
 

@@ -1,0 +1,143 @@
+//! [`Paths`]: the paths of a wave, and the buffers of the stages that they go through.
+
+use glam::{Vec2, Vec3};
+
+use crate::Spectrum;
+use crate::accel::Hit;
+use crate::bxdf::{Bsdf, BxdfFlags};
+use crate::geometry::Ray;
+use crate::interaction::SurfaceInteraction;
+use crate::sampling::SampleId;
+use crate::scene::Scene;
+
+/// What is known of a path beside its ray.
+#[derive(Clone, Copy)]
+pub struct Path {
+    /// Which share of the light at its end reaches the camera, over the density of its being drawn.
+    pub beta: Spectrum,
+    /// Where its ray begins, before the origin was moved off the surface.
+    pub p: Vec3,
+    /// Density over solid angle of the ray's direction; infinite from the camera and from delta lobes.
+    pub pdf: f32,
+    /// How much radiance was squeezed by refraction on the way: eta² of all boundaries. It has no part in
+    /// whether a path is worth to go on.
+    pub eta_scale: f32,
+    /// The sample's number in the wave.
+    pub sample: u32,
+}
+
+/// Sample values of the paths that go on, each empty unless it is asked for.
+#[derive(Default)]
+pub struct Values {
+    pub ids: Vec<SampleId>,
+    pub direction: Vec<Vec2>,
+    pub light: Vec<Vec2>,
+    pub choice: Vec<f32>,
+    pub roulette: Vec<f32>,
+}
+
+/// The paths of a wave. Element i of the first three belongs to the same path.
+#[derive(Default)]
+pub struct Paths {
+    pub states: Vec<Path>,
+    pub rays: Vec<Ray>,
+    pub hits: Vec<Hit>,
+    /// Those that have met a surface.
+    pub active: Vec<u32>,
+    pub values: Values,
+    /// What becomes of `states` and `rays` after the reflection.
+    pub next_states: Vec<Path>,
+    pub next_rays: Vec<Ray>,
+}
+
+impl Paths {
+    /// Room for so many paths.
+    pub fn with_capacity(paths: usize) -> Self {
+        Self {
+            states: Vec::with_capacity(paths),
+            rays: Vec::with_capacity(paths),
+            hits: Vec::with_capacity(paths),
+            active: Vec::with_capacity(paths),
+            values: Values {
+                ids: Vec::with_capacity(paths),
+                direction: Vec::with_capacity(paths),
+                light: Vec::with_capacity(paths),
+                choice: Vec::with_capacity(paths),
+                roulette: Vec::with_capacity(paths),
+            },
+            next_states: Vec::with_capacity(paths),
+            next_rays: Vec::with_capacity(paths),
+        }
+    }
+
+    /// Starts with camera rays and what they hit.
+    pub fn start(&mut self, rays: &[Ray], hits: &[Hit]) {
+        self.rays.clear();
+        self.rays.extend_from_slice(rays);
+        self.hits.clear();
+        self.hits.extend_from_slice(hits);
+        self.states.clear();
+        self.states.extend(rays.iter().zip(0..).map(|(ray, sample)| Path {
+            beta: Spectrum::WHITE,
+            p: ray.o,
+            pdf: f32::INFINITY,
+            eta_scale: 1.0,
+            sample,
+        }));
+    }
+
+    /// Finds what the next rays hit, and returns how many they are.
+    pub fn trace(&mut self, scene: &Scene) -> u64 {
+        std::mem::swap(&mut self.states, &mut self.next_states);
+        std::mem::swap(&mut self.rays, &mut self.next_rays);
+        self.next_states.clear();
+        self.next_rays.clear();
+        self.hits.clear();
+        self.hits.resize(self.rays.len(), Hit::MISS);
+        scene.accel().intersect(&self.rays, &mut self.hits);
+        self.rays.len() as u64
+    }
+}
+
+/// A path at the surface that it has met.
+pub struct Vertex<'a> {
+    pub path: &'a Path,
+    pub si: &'a SurfaceInteraction<'a>,
+    pub bsdf: &'a Bsdf<'a>,
+}
+
+impl Vertex<'_> {
+    /// The path with one more reflection, and the direction in which it goes on.
+    #[inline]
+    pub fn step(&self, u: Vec2) -> Option<(Path, Vec3)> {
+        let Self { path, si, bsdf } = self;
+        let drawn = bsdf.sample_f(si.wo(), u, BxdfFlags::all())?;
+        let cos_theta = drawn.wi.dot(si.shading_n()).abs();
+        let beta = path.beta * drawn.f * (cos_theta / drawn.pdf);
+        if beta.is_black() {
+            return None;
+        }
+        let is_delta = drawn.flags.contains(BxdfFlags::SPECULAR);
+        let pdf = if is_delta { f32::INFINITY } else { drawn.pdf };
+        let mut eta_scale = path.eta_scale;
+        if drawn.flags.contains(BxdfFlags::TRANSMISSION) {
+            let eta2 = bsdf.eta() * bsdf.eta();
+            eta_scale *= if si.wo().dot(si.n()) > 0.0 { eta2 } else { 1.0 / eta2 };
+        }
+        Some((Path { beta, p: si.p(), pdf, eta_scale, sample: path.sample }, drawn.wi))
+    }
+}
+
+impl Path {
+    /// Lets the path end at random, the likelier the less it carries, and its beta make up for it if it does not
+    /// (PBRT 3rd edition, section 14.5.4). `u` in `[0, 1)`.
+    #[inline]
+    pub fn survives(&mut self, u: f32) -> bool {
+        let survival = (self.beta * self.eta_scale).max_component().min(1.0);
+        if u >= survival {
+            return false;
+        }
+        self.beta = self.beta / survival;
+        true
+    }
+}
