@@ -39,7 +39,7 @@ pub struct Shading {
 /// It is lazy: point and normals are found when it is made, everything else when it is asked for.
 #[derive(Clone)]
 pub struct SurfaceInteraction<'a> {
-    p: Vec3,
+    p: BoundedPoint,
     wo: Vec3,
     n: Vec3,
     shading_n: Vec3,
@@ -52,7 +52,7 @@ pub struct SurfaceInteraction<'a> {
 #[derive(Clone)]
 enum Source<'a> {
     Triangle { mesh: &'a TriangleMesh, triangle: usize, b: [f32; 3] },
-    Given { p_error: Vec3, uv: Vec2, partials: Partials },
+    Given { uv: Vec2, partials: Partials },
 }
 
 impl<'a> SurfaceInteraction<'a> {
@@ -70,7 +70,7 @@ impl<'a> SurfaceInteraction<'a> {
             None => (n, n),
         };
         Self {
-            p: BoundedPoint::on_triangle(corners, b).p,
+            p: BoundedPoint::on_triangle(corners, b),
             wo,
             n,
             shading_n,
@@ -84,31 +84,19 @@ impl<'a> SurfaceInteraction<'a> {
     /// or `wo` where these span no plane.
     pub fn new(p: BoundedPoint, uv: Vec2, wo: Vec3, partials: Partials) -> Self {
         let n = unit_cross(partials.dpdu, partials.dpdv).unwrap_or(wo);
-        Self {
-            p: p.p,
-            wo,
-            n,
-            shading_n: n,
-            source: Source::Given { p_error: p.error, uv, partials },
-            displaced: None,
-        }
+        Self { p, wo, n, shading_n: n, source: Source::Given { uv, partials }, displaced: None }
     }
 
     /// The point.
     #[inline]
     pub fn p(&self) -> Vec3 {
-        self.p
+        self.p.p
     }
 
     /// Bounds on the absolute error of the point, by axis.
     #[inline]
     pub fn p_error(&self) -> Vec3 {
-        match &self.source {
-            Source::Triangle { mesh, triangle, b } => {
-                BoundedPoint::on_triangle(mesh.corners(*triangle), *b).error
-            }
-            Source::Given { p_error, .. } => *p_error,
-        }
+        self.p.error
     }
 
     /// Texture coordinates.
@@ -203,10 +191,10 @@ impl<'a> SurfaceInteraction<'a> {
     /// This hit as a texture would see it from a point nearby, with another normal.
     pub fn moved_to(&self, p: Vec3, uv: Vec2, n: Vec3) -> Self {
         Self {
-            p,
+            p: BoundedPoint { p, error: self.p.error },
             n,
             shading_n: n,
-            source: Source::Given { p_error: self.p_error(), uv, partials: self.partials() },
+            source: Source::Given { uv, partials: self.partials() },
             displaced: Some(Shading { n, ..self.shading() }),
             wo: self.wo,
         }
@@ -233,11 +221,11 @@ impl<'a> SurfaceInteraction<'a> {
     /// The ray from this point to `target`, which is at t = 1 and left out.
     #[inline]
     pub fn spawn_ray_to(&self, target: Vec3) -> Ray {
-        Ray::between(self.ray_origin(target - self.p), target)
+        Ray::between(self.ray_origin(target - self.p.p), target)
     }
 
     #[inline]
     fn ray_origin(&self, w: Vec3) -> Vec3 {
-        BoundedPoint { p: self.p, error: self.p_error() }.ray_origin(self.n, w)
+        self.p.ray_origin(self.n, w)
     }
 }

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use arrayvec::ArrayVec;
 use glam::{Vec2, Vec3};
 
-use super::{BxDF, BxdfFlags, BxdfSample, Lobe};
+use super::{BxDF, BxdfFlags, BxdfSample, LambertianReflection, Lobe};
 use crate::Spectrum;
 use crate::geometry::Frame;
 use crate::geometry::float::ONE_MINUS_EPSILON;
@@ -97,6 +97,11 @@ impl<'a> Bsdf<'a> {
     /// the kinds in `flags`. Delta lobes add nothing.
     #[inline]
     pub fn f(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> Spectrum {
+        if let Some(lobe) = self.only_lambertian(flags) {
+            let reflects =
+                wo.dot(self.frame.n) != 0.0 && self.side(wo, wi) == BxdfFlags::REFLECTION;
+            return if reflects { self.guarded(lobe.f(wo, wi)) } else { Spectrum::BLACK };
+        }
         let local_wo = self.frame.to_local(wo);
         if local_wo.z == 0.0 {
             return Spectrum::BLACK;
@@ -110,6 +115,19 @@ impl<'a> Bsdf<'a> {
     /// `f` and `pdf` of the sample are those of all these lobes together, unless the chosen one is a
     /// delta lobe. `None` when no lobe matches, or when the chosen one has no direction for this `u`.
     pub fn sample_f(&self, wo: Vec3, u: Vec2, flags: BxdfFlags) -> Option<BxdfSample> {
+        if let Some(lobe) = self.only_lambertian(flags) {
+            let local_wo = Vec3::Z * wo.dot(self.frame.n);
+            if local_wo.z == 0.0 {
+                return None;
+            }
+            let mut sample = lobe.sample_f(local_wo, u)?;
+            sample.wi = self.frame.to_world(sample.wi);
+            if self.side(wo, sample.wi) == BxdfFlags::TRANSMISSION {
+                sample.f = Spectrum::BLACK;
+            }
+            sample.f = self.guarded(sample.f);
+            return Some(sample);
+        }
         let matching = self.num_components(flags);
         let local_wo = self.frame.to_local(wo);
         if matching == 0 || local_wo.z == 0.0 {
@@ -162,6 +180,10 @@ impl<'a> Bsdf<'a> {
     /// [`f`](Bsdf::f) and [`pdf`](Bsdf::pdf) in one go.
     #[inline]
     pub fn f_and_pdf(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> (Spectrum, f32) {
+        if let Some(lobe) = self.only_lambertian(flags) {
+            let [local_wo, local_wi] = [wo, wi].map(|w| Vec3::Z * w.dot(self.frame.n));
+            return (self.f(wo, wi, flags), lobe.pdf(local_wo, local_wi));
+        }
         let (local_wo, local_wi) = (self.frame.to_local(wo), self.frame.to_local(wi));
         if local_wo.z == 0.0 {
             return (Spectrum::BLACK, 0.0);
@@ -182,6 +204,16 @@ impl<'a> Bsdf<'a> {
     /// The share of a uniform light that leaves at all: see [`BxDF::rho_hh`].
     pub fn rho_hh(&self, u1: &[Vec2], u2: &[Vec2], flags: BxdfFlags) -> Spectrum {
         self.guarded(self.matching(flags).map(|(lobe, _)| lobe.rho_hh(u1, u2)).sum())
+    }
+
+    /// The lobe of a plain diffuse surface, the most common by far, which looks at no more of a direction than
+    /// on which side it lies, and how high.
+    #[inline]
+    fn only_lambertian(&self, flags: BxdfFlags) -> Option<&LambertianReflection> {
+        match &self.lobes[..] {
+            [(Lobe::Lambertian(lobe), kind)] if flags.contains(*kind) => Some(lobe),
+            _ => None,
+        }
     }
 
     /// Reflection or transmission, by the geometric normal.

@@ -14,7 +14,7 @@ pub use filter::Filter;
 pub use output::{OutputError, check_writable};
 pub use picture::{Layers, Metadata, Picture, Window};
 pub use png::write_png;
-pub use sums::{Film, FilmError};
+pub use sums::{Film, FilmContents, FilmError, Variance};
 
 /// The name that files give for their maker.
 const SOFTWARE: &str = concat!("lobe ", env!("CARGO_PKG_VERSION"));

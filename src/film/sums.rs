@@ -44,6 +44,26 @@ struct FirstHits {
     hits: u32,
 }
 
+/// stub
+#[derive(Clone, Copy)]
+pub enum Variance {
+    /// stub
+    None,
+    /// stub
+    OfSamples,
+    /// stub
+    OfSets,
+}
+/// stub
+#[derive(Clone, Copy)]
+pub struct FilmContents {
+    /// stub
+    pub sets: u32,
+    /// stub
+    pub variance: Variance,
+    /// stub
+    pub first_hits: bool,
+}
 impl Film {
     /// An empty film for the pixels of `window` in an image of `resolution`, with room for the first
     /// hits if `layers` says so. Fails if the film, its picture and the files made from them would not
@@ -51,7 +71,8 @@ impl Film {
     ///
     /// # Errors
     /// [`FilmError::TooLarge`] when the system refuses the memory.
-    pub fn new(resolution: UVec2, window: Window, layers: bool) -> Result<Self, FilmError> {
+    pub fn new(resolution: UVec2, window: Window, c: FilmContents) -> Result<Self, FilmError> {
+        let layers = c.first_hits;
         // Colour and layers once as sums, once developed, and once more while they are written.
         let per_pixel = size_of::<Pixel>() + if layers { size_of::<FirstHits>() } else { 0 };
         let bytes = (window.area() as u64).saturating_mul(3 * per_pixel as u64);
@@ -90,7 +111,7 @@ impl Film {
 
     /// Adds a sample of the radiance at `pixel`, which lies in the window.
     #[inline]
-    pub fn add_sample(&mut self, pixel: UVec2, radiance: Spectrum) {
+    pub fn add_sample(&mut self, pixel: UVec2, _set: u32, radiance: Spectrum) {
         if !radiance.is_finite() {
             self.non_finite += 1;
             return;

@@ -4,6 +4,7 @@ use super::paths::Paths;
 use crate::Spectrum;
 use crate::accel::Hit;
 use crate::bxdf::Arena;
+use crate::camera::Camera;
 use crate::geometry::Ray;
 use crate::sampling::{SampleId, Sampler};
 use crate::scene::Scene;
@@ -110,18 +111,26 @@ impl Wave {
     ) {
         self.ids.clear();
         self.ids.extend(ids);
-        let camera = scene.camera();
-        self.rays.clear();
-        self.rays.extend(self.ids.iter().map(|&id| {
-            let offset = sampler.get_2d(id, dimension::FILM);
-            camera.generate_ray(id.pixel, offset, || sampler.get_2d(id, dimension::LENS))
-        }));
+        self.generate_rays(scene.camera(), sampler);
         self.counters.camera_rays += self.rays.len() as u64;
         self.hits.clear();
         self.hits.resize(self.rays.len(), Hit::MISS);
         scene.accel().intersect(&self.rays, &mut self.hits);
         self.radiance.clear();
         self.radiance.resize(self.rays.len(), Spectrum::BLACK);
+    }
+}
+
+impl Wave {
+    #[inline(never)]
+    fn generate_rays(&mut self, camera: &Camera, sampler: &dyn Sampler) {
+        let Self { ids, rays, paths, .. } = self;
+        let places = &mut paths.values.direction;
+        sampler.fill_2d(ids, dimension::FILM, places);
+        rays.clear();
+        rays.extend(ids.iter().zip(&*places).map(|(&id, &place)| {
+            camera.generate_ray(id.pixel, place, || sampler.get_2d(id, dimension::LENS))
+        }));
     }
 }
 

@@ -1,12 +1,15 @@
 //! [`Worker`]: one thread's share of the rendering.
 
+use std::ops::Range;
+
 use glam::UVec2;
 
 use super::RenderOptions;
+use super::samples::Samples;
 use crate::bxdf::{BxdfFlags, TransportMode};
-use crate::film::{Film, FilmError, Window};
+use crate::film::{Film, FilmContents, FilmError, Window};
 use crate::integrator::{Counters, Integrator, Wave};
-use crate::sampling::{SampleId, Sampler};
+use crate::sampling::Sampler;
 use crate::scene::Scene;
 
 /// How many samples go through the integrator together: enough for batches to pay, few enough for
@@ -24,6 +27,7 @@ pub struct Worker<'a> {
     sampler: &'a dyn Sampler,
     wave: Wave,
     tile: Film,
+    sets: u32,
     rho_points: [glam::Vec2; RHO_POINTS],
 }
 
@@ -34,38 +38,33 @@ impl<'a> Worker<'a> {
         integrator: &'a dyn Integrator,
         sampler: &'a dyn Sampler,
         options: &RenderOptions,
+        contents: FilmContents,
     ) -> Result<Self, FilmError> {
         let film = scene.film();
         let size = film.window().size().min(UVec2::splat(options.tile_size.max(1)));
         let largest = Window { min: UVec2::ZERO, max: size };
-        let tile = Film::new(film.resolution, largest, options.layers)?;
+        let tile = Film::new(film.resolution, largest, contents)?;
         Ok(Self {
             scene,
             integrator,
             sampler,
             wave: Wave::with_capacity(WAVE, scene.lights().len()),
             tile,
+            sets: contents.sets,
             rho_points: lattice(),
         })
     }
 
-    /// Renders one tile, wave by wave. The samples of a pixel are added in the order of their index, so
-    /// that its sum does not depend on how the image is cut.
-    pub fn render(&mut self, window: Window) {
+    /// Renders the samples whose indices are in `pass`, of each set of each pixel of a tile, wave by wave. Those of a
+    /// pixel are added in the order of set and index, so that its sum does not depend on how the image is cut.
+    pub fn render(&mut self, window: Window, pass: &Range<u32>) {
         self.tile.reset(window);
-        let spp = self.scene.sampler().spp as usize;
-        let width = window.size().x as usize;
-        let samples = window.area() * spp;
-        for first in (0..samples).step_by(WAVE) {
-            let ids = (first..samples.min(first + WAVE)).map(|number| {
-                let (pixel, index) = (number / spp, number % spp);
-                let place = UVec2::new((pixel % width) as u32, (pixel / width) as u32);
-                SampleId { pixel: window.min + place, set: 0, index: index as u32 }
-            });
-            self.wave.begin(self.scene, self.sampler, ids);
+        let mut samples = Samples::new(window, self.sets, pass.clone());
+        while !samples.is_empty() {
+            self.wave.begin(self.scene, self.sampler, samples.by_ref().take(WAVE));
             self.integrator.shade(self.scene, self.sampler, &mut self.wave);
             for (id, &radiance) in self.wave.ids.iter().zip(&self.wave.radiance) {
-                self.tile.add_sample(id.pixel, radiance);
+                self.tile.add_sample(id.pixel, id.set, radiance);
             }
             if self.tile.has_layers() {
                 self.add_first_hits();

@@ -1,0 +1,50 @@
+//! [`Passes`]: which samples of a set are taken together.
+
+use std::ops::Range;
+use std::time::{Duration, Instant};
+
+/// The passes of a render: all samples at once, or as many powers of two as time allows.
+pub struct Passes {
+    limit: u32,
+    time: Option<Duration>,
+    start: Instant,
+    done: u32,
+}
+
+impl Passes {
+    /// Up to `limit` samples in a set, within `time` from now on. The first pass is taken in any case.
+    pub fn new(limit: u32, time: Option<Duration>) -> Self {
+        Self { limit: limit.max(1), time, start: Instant::now(), done: 0 }
+    }
+
+    /// How many samples of each set the passes had so far.
+    pub fn done(&self) -> u32 {
+        self.done
+    }
+
+    /// The next pass; `None` when nothing is left of samples or time.
+    pub fn next(&mut self) -> Option<Range<u32>> {
+        let size = match self.time {
+            None => self.limit - self.done,
+            Some(time) => self.fitting(self.start.elapsed().as_secs_f64(), time.as_secs_f64()),
+        };
+        let pass = self.done..self.done + size;
+        self.done = pass.end;
+        (size > 0).then_some(pass)
+    }
+
+    /// As many samples as there are already, which makes them a power of two; or where time is too short for
+    /// them, by what it took so far, the largest power of two that fits.
+    fn fitting(&self, elapsed: f64, time: f64) -> u32 {
+        let left = self.limit - self.done;
+        if self.done == 0 {
+            return 1;
+        }
+        let affordable = (time - elapsed) / (elapsed / f64::from(self.done));
+        let mut size = 1 << self.done.ilog2();
+        while size > 0 && f64::from(size) > affordable {
+            size >>= 1;
+        }
+        size.min(left)
+    }
+}
