@@ -13,7 +13,7 @@ use lobe::interaction::{Shading, SurfaceInteraction};
 use lobe::light::{BoundingSphere, Light, LightSample};
 use lobe::material::Material;
 use lobe::render::{RenderError, Rendered, render_with};
-use lobe::scene::{IntegratorSettings, SamplerKind, SamplerSettings, SceneBuilder};
+use lobe::scene::{IntegratorSettings, LightStrategy, SamplerSettings, SceneBuilder};
 use lobe::texture::Texture;
 use lobe::{CameraSettings, MatteMaterial, PointLight, RenderOptions, Scene, Spectrum, render};
 use scenes::{Middle, ball_over_floor, floor};
@@ -240,7 +240,12 @@ fn focus_may_be_anywhere() {
             .light(PointLight::new(Vec3::Y, Spectrum::WHITE))
             .build()
             .unwrap();
-        let rendered = render_with(&scene, &DirectIntegrator, &Middle, &RenderOptions::default());
+        let rendered = render_with(
+            &scene,
+            &DirectIntegrator::new(&scene, LightStrategy::Auto),
+            &Middle,
+            &RenderOptions::default(),
+        );
         let color = rendered.unwrap().picture.color;
         assert!(color.iter().all(|c| !c.is_black()), "focused at {focal_distance}");
     }

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use lobe::render::Progress;
 
-const TEMPLATE: &str = "{bar:32} {percent:>3} %  {rate}  {eta} left";
+const TEMPLATE: &str = "{bar:32} {percent:>3} %  {rate}  {eta} left{msg}";
 
 /// A bar on stderr; nothing at all where that is no terminal.
 pub struct Bar {
@@ -33,6 +33,12 @@ impl Bar {
     /// Moves on. The bar itself sees to it that it is not drawn too often.
     pub fn update(&self, progress: Progress) {
         self.rays.store(progress.rays, Ordering::Relaxed);
+        // Behind it a new pass begins.
+        if progress.pixels < self.bar.position() {
+            self.bar.reset_eta();
+            self.bar
+                .set_message(format!(" in this pass; {} samples per pixel done", progress.samples));
+        }
         self.bar.set_position(progress.pixels);
     }
 

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use clap::Args;
 use clap::value_parser;
@@ -20,10 +20,12 @@ use crate::summary::Summary;
 const EXAMPLES: &str = r#"Examples:
   lobe render chapter8.toml                             writes chapter8.png and chapter8.exr here
   lobe render chapter8.toml -o a.png --spp 256          writes a.png alone, with less noise
+  lobe render dragon-sky.toml --time 10                 the best picture in ten seconds
   lobe render chapter8.toml --set film.resolution=[100,100] --set camera.fov=40
   lobe render chapter8.toml --set 'shape.dragon.obj="other.obj"'    text keeps its quotes
 
-A PNG is for the eye. An EXR holds linear radiance, and normal, depth and albedo of what is seen."#;
+A PNG is for the eye. An EXR holds linear radiance with its variance and the number of
+samples, and normal, depth and albedo of what is seen."#;
 
 /// Renders a scene file to PNG and EXR
 #[derive(Args)]
@@ -36,9 +38,14 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
 
-    /// Samples per pixel, in place of the scene's
+    /// Samples per pixel, in place of the scene's; with --time, the most that are taken
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
     spp: Option<u32>,
+
+    /// Renders in passes of 1, 1, 2, 4, ... samples, for as long as the next one will end in time. Sobol
+    /// samples ("sobol") make the most of it, whenever it ends
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    time: Option<Duration>,
 
     /// Seed of the samples, in place of the scene's
     #[arg(long, value_name = "N")]
@@ -51,6 +58,11 @@ pub struct Arguments {
     /// Prints nothing but errors
     #[arg(short, long)]
     quiet: bool,
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().and_then(|s| Duration::try_from_secs_f64(s).ok());
+    seconds.filter(|time| !time.is_zero()).ok_or("expected a number of seconds above 0".into())
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
@@ -66,6 +78,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let options = RenderOptions {
         threads: arguments.threads.and_then(|threads| NonZeroUsize::new(threads.into())),
         layers: outputs.iter().any(|output| output.format == Format::Exr),
+        spp: arguments.spp,
+        time: arguments.time,
         progress: Some(&progress),
         ..RenderOptions::default()
     };
@@ -77,7 +91,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let metadata = Metadata {
         scene: arguments.scene.path.display().to_string(),
         seed,
-        samples_per_pixel: spp,
+        samples_per_pixel: rendered.samples_per_pixel,
         seconds: rendered.seconds,
     };
     for output in &outputs {
@@ -88,7 +102,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         let mut summary = Summary::default();
         summary.add("scene", &metadata.scene);
         summary.add_film(scene.film());
-        summary.add("samples", format!("{spp} per pixel"));
+        summary.add("samples", format!("{} per pixel", rendered.samples_per_pixel));
         summary.add_meshes(&scene);
         summary.add("threads", rendered.threads);
         summary.add("load", format!("{:.3} s", report.seconds));
