@@ -31,14 +31,23 @@ pub fn floor(y: f32, half: f32) -> TriangleMesh {
     }
 }
 
-/// A ball of unit radius about the origin, cut along `rows` circles of latitude, with bumps.
+/// A ball of unit radius about the origin, cut along `rows` circles of latitude: convex.
+pub fn ball(rows: u32) -> TriangleMesh {
+    star(rows, |_, _| 1.0)
+}
+
+/// The same with bumps.
 pub fn lumpy_ball(rows: u32) -> TriangleMesh {
+    star(rows, |theta, phi| 1.0 + 0.1 * (5.0 * theta).sin() * (7.0 * phi).cos())
+}
+
+/// A body by its radius in the direction of polar angle and azimuth.
+fn star(rows: u32, radius: impl Fn(f32, f32) -> f32) -> TriangleMesh {
     let columns = 2 * rows;
     let point = |row: u32, column: u32| {
         let theta = std::f32::consts::PI * row as f32 / rows as f32;
         let phi = std::f32::consts::TAU * (column % columns) as f32 / columns as f32;
-        let radius = 1.0 + 0.1 * (5.0 * theta).sin() * (7.0 * phi).cos();
-        radius * Vec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin())
+        radius(theta, phi) * Vec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin())
     };
     let index = |row: u32, column: u32| match row {
         0 => 0,
