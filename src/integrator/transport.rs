@@ -87,12 +87,14 @@ impl Transport {
         let draw = if choice == LightChoice::All || sampled.len() < 2 {
             sampled.iter().for_each(|&i| probability[i] = 1.0);
             Draw::Each(sampled)
-        } else {
-            let by_power = Discrete::new(sampled.iter().map(|&i| power(&*lights[i])));
+        } else if let Some(by_power) = Discrete::new(sampled.iter().map(|&i| power(&*lights[i]))) {
             for (place, &i) in sampled.iter().enumerate() {
                 probability[i] = by_power.probability(place);
             }
             Draw::One(sampled, by_power)
+        } else {
+            // All of them are dark.
+            Draw::Each(Vec::new())
         };
         let has_extent = |i: &usize| !lights[*i].is_delta();
         let infinite: Vec<_> = (0..lights.len()).filter(|&i| lights[i].is_infinite()).collect();

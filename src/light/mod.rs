@@ -1,10 +1,15 @@
 //! Lights.
 
+mod area;
+mod distant;
 mod point;
-mod stub;
-pub use stub::*;
+mod rectangle;
+mod sky;
 
+pub use area::AreaLight;
+pub use distant::DistantLight;
 pub use point::PointLight;
+pub use sky::SkyLight;
 
 use glam::{Vec2, Vec3};
 

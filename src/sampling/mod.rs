@@ -11,7 +11,8 @@ pub use discrete::Discrete;
 pub use independent::IndependentSampler;
 pub use sampler::{SampleId, Sampler};
 pub use stratified::StratifiedSampler;
+pub(crate) use warp::{LEAST_SOLID_ANGLE, Seen};
 pub use warp::{
-    concentric_disk, cosine_hemisphere, uniform_cone, uniform_disk, uniform_hemisphere,
-    uniform_sphere, uniform_triangle,
+    SphericalRectangle, concentric_disk, cosine_hemisphere, uniform_cone, uniform_disk,
+    uniform_hemisphere, uniform_sphere, uniform_triangle,
 };

@@ -47,7 +47,8 @@ fn star(rows: u32, radius: impl Fn(f32, f32) -> f32) -> TriangleMesh {
     let point = |row: u32, column: u32| {
         let theta = std::f32::consts::PI * row as f32 / rows as f32;
         let phi = std::f32::consts::TAU * (column % columns) as f32 / columns as f32;
-        radius(theta, phi) * Vec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin())
+        radius(theta, phi)
+            * Vec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin())
     };
     let index = |row: u32, column: u32| match row {
         0 => 0,

@@ -47,7 +47,7 @@ fn a_plane_under_a_distant_light() {
             .integrator(IntegratorSettings::direct())
             .material("plane", MatteMaterial::new([0.5, 0.25, 1.0]))
             .shape("plane", floor(0.0, 10.0), "plane")
-            .light(DistantLight::new(towards, Spectrum::new(3.0, 3.0, 3.0))),
+            .light(DistantLight::new(towards, Spectrum::splat(3.0)).unwrap()),
     );
     for (place, pixel) in picture.color.iter().enumerate() {
         for (band, r) in pixel.to_array().into_iter().zip([0.5, 0.25, 1.0]) {
@@ -97,7 +97,10 @@ fn a_furnace_adds_up_all_reflections() {
             let emission = Emission { radiance: Spectrum::splat(e as f32), two_sided: true };
             let picture = picture(
                 Scene::builder()
-                    .camera(CameraSettings { eye: Vec3::new(0.1, 0.2, -0.3), ..CameraSettings::default() })
+                    .camera(CameraSettings {
+                        eye: Vec3::new(0.1, 0.2, -0.3),
+                        ..CameraSettings::default()
+                    })
                     .resolution(32, 32)
                     .sampler(sampler(1024))
                     .integrator(path(max_depth, roulette, strategy))
@@ -163,13 +166,17 @@ fn a_plane_under_a_polygon() {
                 let (pixel, r) = (place / 3, [0.8, 0.4, 0.2][place % 3]);
                 let pixel = UVec2::new(pixel as u32 % 8, pixel as u32 / 8).as_dvec2();
                 let grid = (0..256).map(|i| {
-                    let place = pixel + DVec2::new((i % 16) as f64 + 0.5, (i / 16) as f64 + 0.5) / 16.0;
+                    let place =
+                        pixel + DVec2::new((i % 16) as f64 + 0.5, (i / 16) as f64 + 0.5) / 16.0;
                     let along = (place / 4.0 - 1.0) * 0.9;
                     lambert(DVec3::new(along.x, 0.0, -along.y), DVec3::Y, &polygon)
                 });
                 let expected = 5.0 * r / PI * grid.sum::<f64>() / 256.0;
                 let off = (band - expected).abs() / (variance.sqrt() + 2e-6 * expected);
-                assert!(off < 5.0, "{name}, {strategy:?}, pixel {pixel}: {band}, expected {expected}");
+                assert!(
+                    off < 5.0,
+                    "{name}, {strategy:?}, pixel {pixel}: {band}, expected {expected}"
+                );
             }
         }
     }

@@ -10,12 +10,8 @@ use lobe::{PointLight, Spectrum, TriangleMesh};
 use crate::scenes::{ball, ball_over_floor};
 use crate::statistics::{assert_alike, bands, picture};
 
-const SAMPLERS: [SamplerKind; 4] = [
-    SamplerKind::Independent,
-    SamplerKind::Stratified,
-    SamplerKind::Sobol,
-    SamplerKind::BlueNoise,
-];
+const SAMPLERS: [SamplerKind; 4] =
+    [SamplerKind::Independent, SamplerKind::Stratified, SamplerKind::Sobol, SamplerKind::BlueNoise];
 const STRATEGIES: [LightStrategy; 4] =
     [LightStrategy::Auto, LightStrategy::Mis, LightStrategy::Light, LightStrategy::Bsdf];
 
@@ -29,7 +25,7 @@ fn scene() -> SceneBuilder {
         .lamp("lamp", lamp, glow(4.0, true))
         .glowing_shape("moon", moon, "red", glow(2.0, false))
         .light(SkyLight::new(Spectrum::new(0.1, 0.2, 0.3)))
-        .light(DistantLight::new(Vec3::new(-0.6, 0.8, 0.0), Spectrum::splat(0.5)))
+        .light(DistantLight::new(Vec3::new(-0.6, 0.8, 0.0), Spectrum::splat(0.5)).unwrap())
         .light(PointLight::new(Vec3::new(3.0, 3.0, -3.0), Spectrum::splat(8.0)))
 }
 

@@ -15,7 +15,8 @@ const SEEDS: u64 = 32;
 /// stratified ones (1.5), and with the variance of a set in place of that of the mean (1.41).
 #[test]
 fn the_claimed_error_is_the_true_one() {
-    let lamp = TriangleMesh::parallelogram(Vec3::new(-1.0, 2.0, -1.0), Vec3::X * 2.0, Vec3::Z * 2.0);
+    let lamp =
+        TriangleMesh::parallelogram(Vec3::new(-1.0, 2.0, -1.0), Vec3::X * 2.0, Vec3::Z * 2.0);
     let emission = Emission { radiance: Spectrum::splat(6.0), two_sided: false };
     for kind in [
         SamplerKind::Independent,

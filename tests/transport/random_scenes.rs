@@ -78,7 +78,8 @@ fn mesh(rng: &mut Rng) -> TriangleMesh {
                 mesh.indices.push([3 * i, 3 * i + 1, 3 * i + 2]);
             }
             if rng.below(2) == 0 {
-                mesh.normals = mesh.positions.iter().map(|_| rng.vector().normalize_or_zero()).collect();
+                mesh.normals =
+                    mesh.positions.iter().map(|_| rng.vector().normalize_or_zero()).collect();
             }
             mesh
         }
@@ -115,8 +116,7 @@ fn scene(trial: u64) -> Scene {
     if rng.below(2) == 0 {
         eye = eye.normalize_or(Vec3::X) * 4.0;
     }
-    let sampler =
-        SamplerSettings { kind: kinds[rng.below(4)], spp: 4, seed: trial, replicates: 2 };
+    let sampler = SamplerSettings { kind: kinds[rng.below(4)], spp: 4, seed: trial, replicates: 2 };
     let matte = |rng: &mut Rng| {
         let kd = rng.vector().abs().round() * rng.f32();
         let matte = MatteMaterial::new(kd.to_array());
@@ -148,7 +148,7 @@ fn scene(trial: u64) -> Scene {
             0 => builder.light(SkyLight::new(rng.light())),
             1 => {
                 let direction = rng.vector().normalize_or(Vec3::Y);
-                builder.light(DistantLight::new(direction, rng.light()))
+                builder.light(DistantLight::new(direction, rng.light()).unwrap())
             }
             // On surfaces too.
             _ => builder.light(PointLight::new(at(rng.place()), rng.light())),

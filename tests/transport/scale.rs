@@ -16,7 +16,8 @@ fn scene(scale: f32, shift: f32, seed: u64) -> SceneBuilder {
         mesh.positions.iter_mut().for_each(|p| *p = place((*p * 512.0).round() / 512.0));
         mesh
     };
-    let lamp = TriangleMesh::parallelogram(Vec3::new(-1.0, 2.0, -1.0), Vec3::X * 2.0, Vec3::Z * 2.0);
+    let lamp =
+        TriangleMesh::parallelogram(Vec3::new(-1.0, 2.0, -1.0), Vec3::X * 2.0, Vec3::Z * 2.0);
     let mut camera = chapter_camera();
     (camera.eye, camera.look_at) = (place(camera.eye), place(camera.look_at));
     Scene::builder()

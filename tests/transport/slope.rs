@@ -1,9 +1,9 @@
 //! How fast the error falls.
 
+use lobe::Spectrum;
 use lobe::glam::UVec2;
 use lobe::light::SkyLight;
 use lobe::scene::{IntegratorSettings, SamplerKind, SamplerSettings};
-use lobe::Spectrum;
 
 use crate::scenes::ball_over_floor;
 use crate::statistics::{bands, picture};

@@ -51,9 +51,8 @@ pub fn assert_alike(a: &[(f64, f64)], b: &[(f64, f64)], what: &str) {
     let passed = a.iter().zip(b).filter(|&pair| z(pair).abs() <= limit).count();
     let share = passed as f64 / a.len() as f64;
     assert!(share >= 0.9975, "{what}: only {share} of bands pass at {limit}");
-    let sum = |f: fn(&(f64, f64)) -> f64| {
-        a.iter().map(f).sum::<f64>() - b.iter().map(f).sum::<f64>()
-    };
+    let sum =
+        |f: fn(&(f64, f64)) -> f64| a.iter().map(f).sum::<f64>() - b.iter().map(f).sum::<f64>();
     let variance: f64 = a.iter().chain(b).map(|band| band.1).sum();
     let scale: f64 = a.iter().map(|band| band.0).sum();
     let off = sum(|band| band.0).abs() / (variance.sqrt() + 1e-6 * scale);

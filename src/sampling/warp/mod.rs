@@ -7,11 +7,15 @@
 
 pub mod concentric_disk;
 pub mod cosine_hemisphere;
+mod spherical_rectangle;
 pub mod uniform_cone;
 pub mod uniform_disk;
 pub mod uniform_hemisphere;
 pub mod uniform_sphere;
 pub mod uniform_triangle;
+
+pub use spherical_rectangle::SphericalRectangle;
+pub(crate) use spherical_rectangle::{LEAST_SOLID_ANGLE, Seen};
 
 use std::f32::consts::TAU;
 

@@ -11,7 +11,7 @@ use super::section::full_name;
 use crate::camera::CameraError;
 use crate::light::{DistantLight, PointLight, SkyLight};
 use crate::material::MatteMaterial;
-use crate::scene::{Scene, SceneError};
+use crate::scene::{Scene, SceneBuilder, SceneError};
 use crate::shape::{ObjMesh, ObjReport, TriangleMesh, read_obj};
 
 /// Looks up all names, reads the meshes and builds the scene. The settings are checked before the
@@ -35,7 +35,8 @@ pub fn build(
             }
             // A light knows where it shines from, a file says where to.
             LightDescription::Distant { direction, irradiance } => {
-                builder.light(DistantLight::new(-direction, irradiance.into()))
+                let light = DistantLight::new(-direction, irradiance.into());
+                light.into_iter().fold(builder, SceneBuilder::light)
             }
             LightDescription::Sky { radiance } => builder.light(SkyLight::new(radiance.into())),
         };

@@ -1,0 +1,171 @@
+//! [`AreaLight`].
+
+use std::f32::consts::PI;
+
+use glam::{Vec2, Vec3};
+
+use super::rectangle::Rectangle;
+use super::{BoundingSphere, Light, LightHit, LightSample};
+use crate::Spectrum;
+use crate::geometry::float::gamma;
+use crate::geometry::{BoundedPoint, unit};
+use crate::sampling::{Discrete, uniform_triangle};
+use crate::shape::{TriangleMesh, triangle_normal};
+
+/// A mesh whose surface radiates alike in all directions of its outer side, or of both sides (PBRT 3rd
+/// edition, sections 12.5 and 14.2.2).
+///
+/// Outside is as for [`SurfaceInteraction`](crate::interaction::SurfaceInteraction): the side from which the
+/// corners run counter-clockwise, unless the mesh has vertex normals that say otherwise.
+///
+/// Points are drawn uniformly over the area. Of a mesh that is one flat rectangle they are drawn uniformly
+/// over the solid angle, unless that is below 1e-6 sr.
+#[derive(Clone, Debug)]
+pub struct AreaLight {
+    /// The triangles with their normals.
+    mesh: TriangleMesh,
+    /// A choice among them by area.
+    triangles: Discrete,
+    /// The sum of their areas.
+    area: f64,
+    rectangle: Option<Rectangle>,
+    radiance: Spectrum,
+    two_sided: bool,
+}
+
+impl AreaLight {
+    /// A light in the form of `mesh`, in world space, that sends out the radiance `radiance`, in W / (m² sr).
+    /// The mesh must have passed [`TriangleMesh::check`]. `None` when it has no area: triangles without any
+    /// send out nothing.
+    pub fn new(mesh: &TriangleMesh, radiance: Spectrum, two_sided: bool) -> Option<Self> {
+        // The parts that the light needs: no texture coordinates, and no triangles without area.
+        let has_area = |t: &usize| mesh.geometric_normal(*t) != Vec3::ZERO;
+        let indices = (0..mesh.indices.len()).filter(has_area).map(|t| mesh.indices[t]).collect();
+        let mesh = TriangleMesh {
+            positions: mesh.positions.clone(),
+            normals: mesh.normals.clone(),
+            uvs: Vec::new(),
+            indices,
+        };
+        let areas = || (0..mesh.indices.len()).map(|t| triangle_area(mesh.corners(t)));
+        let triangles = Discrete::new(areas())?;
+        let area = areas().sum();
+        let rectangle = find_rectangle(&mesh, two_sided);
+        Some(Self { mesh, triangles, area, rectangle, radiance, two_sided })
+    }
+
+    /// A point drawn uniformly over the area, and the unit outward normal there.
+    #[inline]
+    fn sample_area(&self, u: Vec2) -> (BoundedPoint, Vec3) {
+        let (triangle, _, rest) = self.triangles.sample(u.x);
+        let b = uniform_triangle::sample(Vec2::new(rest, u.y));
+        let b = [b.x, b.y, (1.0 - b.x - b.y).max(0.0)];
+        let corners = self.mesh.corners(triangle);
+        let n = triangle_normal(corners);
+        let inward = self.mesh.shading_normal(triangle, b).is_some_and(|ns| n.dot(ns) < 0.0);
+        (BoundedPoint::on_triangle(corners, b), if inward { -n } else { n })
+    }
+
+    /// Density over solid angle of a point drawn by area, d² / (cos θ A); infinite at cos θ = 0. `cos_theta`
+    /// is that of the normal and the direction to the viewer.
+    #[inline]
+    fn pdf_by_area(&self, distance: f32, cos_theta: f32) -> f32 {
+        let distance = f64::from(distance);
+        (distance * distance / (f64::from(cos_theta.abs()) * self.area)) as f32
+    }
+
+    /// Whether light leaves to the side where the cosine to the outward normal is `cos_theta`.
+    #[inline]
+    fn shines(&self, cos_theta: f32) -> bool {
+        cos_theta > 0.0 || (self.two_sided && cos_theta < 0.0)
+    }
+}
+
+impl Light for AreaLight {
+    fn is_delta(&self) -> bool {
+        false
+    }
+
+    #[inline]
+    fn sample_li(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
+        let seen = self.rectangle.as_ref().and_then(|rectangle| {
+            rectangle.seen_from(p).map(|(seen, outside)| (rectangle, seen, outside))
+        });
+        let (point, n, pdf) = match seen {
+            Some((_, _, false)) if !self.two_sided => return None,
+            Some((rectangle, seen, _)) => {
+                let (point, n) = rectangle.sample(&seen, u);
+                (point, n, (1.0 / seen.solid_angle) as f32)
+            }
+            None => {
+                let (point, n) = self.sample_area(u);
+                let to_light = point.p - p;
+                let distance = to_light.length();
+                let cos_theta = -n.dot(to_light) / distance;
+                if !self.shines(cos_theta) {
+                    return None;
+                }
+                (point, n, self.pdf_by_area(distance, cos_theta))
+            }
+        };
+        let to_light = point.p - p;
+        let wi = unit(to_light).filter(|_| pdf > 0.0 && pdf < f32::INFINITY)?;
+        // A ray from `p` ends where rounding of its own direction and distance leaves it.
+        let error = point.error + gamma(8) * to_light.abs();
+        let from = BoundedPoint { p: point.p, error }.ray_origin(n, -to_light);
+        Some(LightSample { li: self.radiance, wi, pdf, from: Some(from) })
+    }
+
+    #[inline]
+    fn pdf_li(&self, hit: &LightHit) -> f32 {
+        let pdf = match self.rectangle.as_ref().and_then(|r| r.seen_from(hit.origin)) {
+            Some((seen, outside)) if outside || self.two_sided => (1.0 / seen.solid_angle) as f32,
+            Some(_) => 0.0,
+            None => {
+                let cos_theta = -hit.n.dot(hit.wi);
+                let shines = self.shines(cos_theta);
+                if shines { self.pdf_by_area(hit.distance, cos_theta) } else { 0.0 }
+            }
+        };
+        if pdf < f32::INFINITY { pdf } else { 0.0 }
+    }
+
+    /// The light's radiance, if the ray comes from a side that shines.
+    #[inline]
+    fn le(&self, hit: &LightHit) -> Spectrum {
+        if self.shines(-hit.n.dot(hit.wi)) { self.radiance } else { Spectrum::BLACK }
+    }
+
+    /// π A L, from both sides twice that.
+    fn power(&self, _scene: &BoundingSphere) -> Spectrum {
+        let sides = if self.two_sided { 2.0 } else { 1.0 };
+        self.radiance * (sides * PI * self.area as f32)
+    }
+}
+
+fn triangle_area(corners: [Vec3; 3]) -> f64 {
+    let [p0, p1, p2] = corners.map(Vec3::as_dvec3);
+    (p1 - p0).cross(p2 - p0).length() / 2.0
+}
+
+/// The rectangle that the mesh is, if it is one with one outer side.
+fn find_rectangle(mesh: &TriangleMesh, two_sided: bool) -> Option<Rectangle> {
+    let [_, _] = mesh.indices[..] else { return None };
+    let [first, second] = [outward(mesh, 0)?, outward(mesh, 1)?];
+    if !two_sided && first.dot(second) < 0.0 {
+        return None;
+    }
+    Rectangle::new([mesh.corners(0), mesh.corners(1)], first)
+}
+
+/// The unit outward normal of a triangle, when it is the same everywhere on it.
+fn outward(mesh: &TriangleMesh, triangle: usize) -> Option<Vec3> {
+    let n = mesh.geometric_normal(triangle);
+    let corners = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let sides = corners.map(|b| mesh.shading_normal(triangle, b).map_or(1.0, |ns| n.dot(ns)));
+    if sides.iter().all(|side| *side >= 0.0) {
+        Some(n)
+    } else {
+        sides.iter().all(|side| *side < 0.0).then_some(-n)
+    }
+}

@@ -1,0 +1,42 @@
+//! [`DistantLight`].
+
+use std::f32::consts::PI;
+
+use glam::{Vec2, Vec3};
+
+use super::{BoundingSphere, Light, LightSample};
+use crate::Spectrum;
+use crate::geometry::unit;
+
+/// A light from infinitely far away whose rays are parallel, like the sun's (PBRT 3rd edition,
+/// section 12.4).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DistantLight {
+    towards: Vec3,
+    irradiance: Spectrum,
+}
+
+impl DistantLight {
+    /// Light from the direction `towards` the light, in world space and of any length, that gives a surface
+    /// across it the irradiance `irradiance`, in W / m². `None` when `towards` is zero or not finite.
+    pub fn new(towards: Vec3, irradiance: Spectrum) -> Option<Self> {
+        Some(Self { towards: unit(towards)?, irradiance })
+    }
+}
+
+impl Light for DistantLight {
+    fn is_delta(&self) -> bool {
+        true
+    }
+
+    /// The same everywhere.
+    #[inline]
+    fn sample_li(&self, _p: Vec3, _u: Vec2) -> Option<LightSample> {
+        Some(LightSample { li: self.irradiance, wi: self.towards, pdf: 1.0, from: None })
+    }
+
+    /// E π r²: what goes through the disk that the scene's sphere is seen as.
+    fn power(&self, scene: &BoundingSphere) -> Spectrum {
+        self.irradiance * (PI * scene.radius * scene.radius)
+    }
+}

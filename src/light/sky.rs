@@ -1,0 +1,58 @@
+//! [`SkyLight`].
+
+use std::f32::consts::PI;
+
+use glam::{Vec2, Vec3};
+
+use super::{BoundingSphere, Light, LightHit, LightSample};
+use crate::Spectrum;
+use crate::sampling::uniform_sphere;
+
+/// The same radiance from every direction: an overcast sky all around, or a furnace to test in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkyLight {
+    radiance: Spectrum,
+}
+
+impl SkyLight {
+    /// A sky of the radiance `radiance`, in W / (m² sr).
+    pub fn new(radiance: Spectrum) -> Self {
+        Self { radiance }
+    }
+}
+
+impl Light for SkyLight {
+    fn is_delta(&self) -> bool {
+        false
+    }
+
+    fn is_infinite(&self) -> bool {
+        true
+    }
+
+    fn is_worth_sampling(&self) -> bool {
+        false
+    }
+
+    /// Uniform over the sphere.
+    #[inline]
+    fn sample_li(&self, _p: Vec3, u: Vec2) -> Option<LightSample> {
+        let wi = uniform_sphere::sample(u).normalize();
+        Some(LightSample { li: self.radiance, wi, pdf: uniform_sphere::pdf(), from: None })
+    }
+
+    #[inline]
+    fn pdf_li(&self, _hit: &LightHit) -> f32 {
+        uniform_sphere::pdf()
+    }
+
+    #[inline]
+    fn le(&self, _hit: &LightHit) -> Spectrum {
+        self.radiance
+    }
+
+    /// 4π² r² L: from each of 4π directions, through the disk that the scene's sphere is seen as.
+    fn power(&self, scene: &BoundingSphere) -> Spectrum {
+        self.radiance * (4.0 * PI * PI * scene.radius * scene.radius)
+    }
+}
