@@ -6,10 +6,12 @@
 
 use std::path::{Path, PathBuf};
 
-use lobe::film::{Display, Window};
-use lobe::glam::{UVec2, Vec3};
+use lobe::Spectrum;
+use lobe::film::{Display, Filter, Window};
+use lobe::glam::{UVec2, Vec2, Vec3};
+use lobe::light::Light;
 use lobe::scene::{
-    IntegratorSettings, LoadedScene, SamplerKind, SceneFileError, parse_scene, read_scene,
+    IntegratorSettings, LightStrategy, LoadedScene, SamplerKind, SceneFileError, parse_scene, read_scene,
 };
 
 /// A folder of this test's own with a triangle in it.
@@ -111,6 +113,57 @@ fn a_file_gives_its_scene() {
     assert!(report.seconds > 0.0);
 }
 
+/// What the chapter has no need of: filters, other samplers, paths, lights of all kinds.
+#[test]
+fn a_file_with_light_gives_its_scene() {
+    let text = r#"
+        [film]
+        filter = "gaussian"
+        filter_sigma = 0.4
+        [sampler]
+        type = "blue-noise"
+        replicates = 4
+        [integrator]
+        type = "path"
+        max_depth = 9
+        roulette = false
+        strategy = "mis"
+        [light.sun]
+        type = "distant"
+        direction = [0, -2, 0]
+        irradiance = [3, 2, 1]
+        [light.sky]
+        type = "sky"
+        radiance = [0.5, 0.5, 1]
+        [shape.lamp]
+        type = "rectangle"
+        corner = [-1, 2, -1]
+        edges = [[2, 0, 0], [0, 0, 2]]
+        emission = [4, 4, 4]
+        translate = [0, 1, 0]
+    "#;
+    let scene = parse(text, &[]).unwrap().scene;
+    assert_eq!(scene.film().filter, Filter::Gaussian { radius: 1.5, sigma: 0.4 });
+    let sampler = scene.sampler();
+    assert_eq!((sampler.kind, sampler.replicates), (SamplerKind::BlueNoise, 4));
+    let path = IntegratorSettings::Path {
+        max_depth: 9,
+        roulette: false,
+        strategy: LightStrategy::Mis,
+    };
+    assert_eq!(*scene.integrator(), path);
+
+    let [sun, sky, lamp] = scene.lights() else { panic!("{} lights", scene.lights().len()) };
+    let below = |light: &dyn Light| light.sample_li(Vec3::ZERO, Vec2::splat(0.5)).unwrap();
+    assert_eq!((below(&**sun).wi, below(&**sun).li), (Vec3::Y, Spectrum::new(3.0, 2.0, 1.0)));
+    assert_eq!(below(&**sky).li, Spectrum::new(0.5, 0.5, 1.0));
+    // Its corner's neighbours span a normal that points down, and all of it was moved up.
+    let from = below(&**lamp);
+    assert_eq!(from.li, Spectrum::splat(4.0));
+    assert!((from.from.unwrap() - Vec3::Y * 3.0).length() < 1e-5, "{from:?}");
+    assert!(lamp.sample_li(Vec3::Y * 4.0, Vec2::splat(0.5)).is_none());
+}
+
 #[test]
 fn everything_has_a_default_in_an_empty_file() {
     for text in ["", "\u{FEFF}", "[camera]\n[film]\n[sampler]\n[integrator]\n[shape]\n[light]\r\n"]
@@ -193,8 +246,28 @@ fn unknown_keys() {
             "s.toml:2:1: unknown key `highligth` in [integrator]; did you mean `highlight`?",
         ),
         (
+            "[film]\nfilter_radius = 2",
+            "s.toml:2:1: unknown key `filter_radius` in [film]; did you mean `filter`?",
+        ),
+        (
+            "[film]\nfilter = \"tent\"\nfilter_sigma = 2",
+            "s.toml:3:1: unknown key `filter_sigma` in [film]; did you mean `filter_radius`?",
+        ),
+        (
+            "[integrator]\ntype = \"direct\"\nmax_depth = 2",
+            "s.toml:3:1: unknown key `max_depth` in [integrator] of type \"direct\"; expected `type` or `strategy`",
+        ),
+        (
+            "[shape.s]\ntype = \"rectangle\"\nobj = \"a.obj\"",
+            "s.toml:3:1: unknown key `obj` in [shape.s] of type \"rectangle\"; expected `type`, `material`, `emission`, `two_sided`, `scale`, `rotate`, `translate`, `corner` or `edges`",
+        ),
+        (
+            "[light.l]\ntype = \"sky\"\nintensity = 1",
+            "s.toml:3:1: unknown key `intensity` in [light.l] of type \"sky\"; expected `type` or `radiance`",
+        ),
+        (
             "[integrator]\ntype = \"direct\"\nhighlight = true",
-            "s.toml:3:1: unknown key `highlight` in [integrator] of type \"direct\"; expected `type`",
+            "s.toml:3:1: unknown key `highlight` in [integrator] of type \"direct\"; expected `type` or `strategy`",
         ),
         (
             "[texture.t]\ntype = \"constant\"\nvalve = 1",
@@ -224,10 +297,22 @@ fn missing_keys() {
             "s.toml:2:1: [texture.t] lacks `value`, expected a number or [red, green, blue], all finite",
         ),
         ("[material.m]", "s.toml:1:1: [material.m] lacks `type`, expected \"matte\""),
-        ("[light.l]", "s.toml:1:1: [light.l] lacks `type`, expected \"point\""),
+        ("[light.l]", "s.toml:1:1: [light.l] lacks `type`, expected \"point\", \"distant\" or \"sky\""),
         (
             "[light.l]\ntype = \"point\"\nintensity = [1, 1, 1]",
             "s.toml:1:1: [light.l] lacks `position`, expected an array of 3, each a finite number",
+        ),
+        (
+            "[light.l]\ntype = \"distant\"\nirradiance = [1, 1, 1]",
+            "s.toml:1:1: [light.l] lacks `direction`, expected [x, y, z], finite and not all 0",
+        ),
+        (
+            "[light.l]\ntype = \"sky\"",
+            "s.toml:1:1: [light.l] lacks `radiance`, expected [red, green, blue], each a finite number of at least 0",
+        ),
+        (
+            "[shape.s]\ntype = \"rectangle\"\ncorner = [0, 0, 0]",
+            "s.toml:1:1: [shape.s] lacks `edges`, expected an array of 2, each an array of 3, each a finite number",
         ),
         (
             "[light.l]\ntype = \"point\"\nposition = [1, 1, 1]",
@@ -271,8 +356,8 @@ fn wrong_types() {
             "s.toml:2:11: `film.display` is \"sRGB\", expected \"srgb\" or \"exposure\"",
         ),
         (
-            "[sampler]\ntype = \"sobol\"",
-            "s.toml:2:8: `sampler.type` is \"sobol\", expected \"independent\" or \"stratified\"",
+            "[sampler]\ntype = \"halton\"",
+            "s.toml:2:8: `sampler.type` is \"halton\", expected \"independent\", \"stratified\", \"sobol\" or \"blue-noise\"",
         ),
         (
             "[sampler]\nspp = 1.5",
@@ -287,8 +372,8 @@ fn wrong_types() {
             "s.toml:2:13: `integrator.highlight` is 1, expected true or false",
         ),
         (
-            "[integrator]\ntype = \"path\"",
-            "s.toml:2:8: `integrator.type` is \"path\", expected \"chapter\" or \"direct\"",
+            "[integrator]\ntype = \"bdpt\"",
+            "s.toml:2:8: `integrator.type` is \"bdpt\", expected \"chapter\", \"direct\" or \"path\"",
         ),
         (
             "[material.m]\ntype = \"matte\"\nkd = true",
@@ -367,6 +452,22 @@ fn values_out_of_range() {
         (
             "[light.l]\ntype = \"point\"\nposition = [0, 0, 0]\nintensity = [1, 1, -1]",
             "s.toml:4:13: `light.l.intensity` is [1, 1, -1], expected [red, green, blue], each a finite number of at least 0",
+        ),
+        (
+            "[light.l]\ntype = \"distant\"\ndirection = [0, 0, 0]\nirradiance = [1, 1, 1]",
+            "s.toml:3:13: `light.l.direction` is [0, 0, 0], expected [x, y, z], finite and not all 0",
+        ),
+        (
+            "[shape.s]\nobj = \"a.obj\"\nemission = [1, -1, 1]",
+            "s.toml:3:12: `shape.s.emission` is [1, -1, 1], expected [red, green, blue], each a finite number of at least 0",
+        ),
+        (
+            "[film]\nfilter = \"tent\"\nfilter_radius = 0",
+            "s.toml:3:17: the filter's radius is 0: it has to be above 0 and at most 16 pixels",
+        ),
+        (
+            "[film]\nfilter = \"gaussian\"\nfilter_sigma = -1",
+            "s.toml:3:16: the filter's sigma is -1: it has to be finite and above 0",
         ),
         (
             "[shape.s]\nscale = [1, 0, 1]",
@@ -544,10 +645,17 @@ fn files_that_cannot_be_read() {
 /// The scenes of the project, but for the dragon's mesh.
 #[test]
 fn the_scenes_in_assets_are_good() {
-    for name in ["chapter8", "chapter8-highlight", "dragon"] {
+    for (name, triangles) in [
+        ("chapter8", 4),
+        ("chapter8-highlight", 4),
+        ("dragon", 4),
+        ("dragon-sky", 4),
+        ("dragon-area", 6),
+        ("dragon-box", 14),
+    ] {
         let path = PathBuf::from(format!("assets/{name}.toml"));
         let set = ["shape.dragon.obj='assets/floor.obj'"];
         let loaded = read_scene(&path, &set).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(loaded.scene.accel().triangle_count(), 4);
+        assert_eq!(loaded.scene.accel().triangle_count(), triangles, "{name}");
     }
 }

@@ -8,7 +8,7 @@ use super::{Emission, FilmSettings, IntegratorSettings, SamplerSettings, Scene, 
 use crate::Spectrum;
 use crate::accel::Accel;
 use crate::camera::{Camera, CameraError, CameraSettings};
-use crate::film::{Display, Window};
+use crate::film::{Display, Filter, FilterError, FilterSampler, Window};
 use crate::light::{AreaLight, Light};
 use crate::material::{Material, MatteMaterial};
 use crate::shape::{MeshError, TriangleMesh};
@@ -25,6 +25,9 @@ pub enum SceneError {
         corners = [.0.min, .0.max].map(|corner| corner.to_array()).as_flattened()
     )]
     Crop(Window, u32, u32),
+    /// The filter covers nothing, or too much.
+    #[error(transparent)]
+    Filter(#[from] FilterError),
     /// There is nothing to average.
     #[error("the sampler's spp is 0: it has to be at least 1")]
     NoSamples,
@@ -84,6 +87,12 @@ impl SceneBuilder {
     /// Renders only a part of the image.
     pub fn crop(self, window: Window) -> Self {
         let film = FilmSettings { crop: Some(window), ..self.film };
+        self.film(film)
+    }
+
+    /// Sets the reconstruction filter.
+    pub fn filter(self, filter: Filter) -> Self {
+        let film = FilmSettings { filter, ..self.film };
         self.film(film)
     }
 
@@ -169,6 +178,7 @@ impl SceneBuilder {
         if window.min.cmpge(window.max).any() || window.max.cmpgt(resolution).any() {
             return Err(SceneError::Crop(window, resolution.x, resolution.y));
         }
+        self.film.filter.check()?;
         if self.sampler.spp == 0 {
             return Err(SceneError::NoSamples);
         }
@@ -219,6 +229,7 @@ impl SceneBuilder {
             integrator: self.integrator,
             shapes,
             meshes,
+            filter: FilterSampler::new(self.film.filter)?,
             lights,
             accel,
             build_seconds: start.elapsed().as_secs_f64(),

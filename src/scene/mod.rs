@@ -14,6 +14,7 @@ pub use settings::{
 
 use crate::accel::{Accel, Hit};
 use crate::camera::{Camera, CameraSettings};
+use crate::film::FilterSampler;
 use crate::geometry::Ray;
 use crate::interaction::SurfaceInteraction;
 use crate::light::{BoundingSphere, Light};
@@ -48,6 +49,7 @@ pub struct Scene {
     camera: Camera,
     camera_settings: CameraSettings,
     film: FilmSettings,
+    filter: FilterSampler,
     sampler: SamplerSettings,
     integrator: IntegratorSettings,
     shapes: Vec<Shape>,
@@ -84,6 +86,11 @@ impl Scene {
     /// The film's settings.
     pub fn film(&self) -> &FilmSettings {
         &self.film
+    }
+
+    /// The film's filter, ready to be sampled.
+    pub fn filter(&self) -> &FilterSampler {
+        &self.filter
     }
 
     /// The sampler's settings.

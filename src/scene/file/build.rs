@@ -9,6 +9,7 @@ use super::error::Problem;
 use super::hint::hint;
 use super::section::full_name;
 use crate::camera::CameraError;
+use crate::film::FilterError;
 use crate::light::{DistantLight, PointLight, SkyLight};
 use crate::material::MatteMaterial;
 use crate::scene::{Scene, SceneBuilder, SceneError};
@@ -87,6 +88,8 @@ fn keys(error: &SceneError) -> Vec<&str> {
             CameraError::Resolution(..) => vec!["film", "resolution"],
         },
         SceneError::Crop(..) => vec!["film", "crop"],
+        SceneError::Filter(FilterError::Radius(_)) => vec!["film", "filter_radius"],
+        SceneError::Filter(FilterError::Sigma(_)) => vec!["film", "filter_sigma"],
         SceneError::NoSamples => vec!["sampler", "spp"],
         SceneError::UnknownMaterial { shape, .. } => vec!["shape", shape, "material"],
         SceneError::TooManyTriangles(_) => vec!["shape"],

@@ -10,7 +10,7 @@ use super::document::{Document, Fault};
 use super::section::Section;
 use super::value::{Direction, Light, Rotation, Scale};
 use crate::camera::CameraSettings;
-use crate::film::{Display, Window};
+use crate::film::{Display, Filter, Window};
 use crate::scene::{
     Emission, FilmSettings, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings,
 };
@@ -82,8 +82,11 @@ fn camera(section: &Section) -> Result<CameraSettings, Fault> {
     })
 }
 
+const FILM_KEYS: [&str; 6] =
+    ["resolution", "crop", "display", "filter", "filter_radius", "filter_sigma"];
+
 fn film(section: &Section) -> Result<FilmSettings, Fault> {
-    section.only(&["resolution", "crop", "display"])?;
+    section.only(&FILM_KEYS)?;
     let default = FilmSettings::default();
     let displays = [("srgb", Display::Srgb), ("exposure", Display::Exposure)];
     let window =
@@ -92,7 +95,33 @@ fn film(section: &Section) -> Result<FilmSettings, Fault> {
         resolution: section.get_or("resolution", default.resolution)?,
         crop: section.get("crop")?.map(window),
         display: section.choice("display", &displays)?.unwrap_or(default.display),
-        filter: default.filter,
+        filter: filter(section)?,
+    })
+}
+
+fn filter(section: &Section) -> Result<Filter, Fault> {
+    let filters = [
+        ("box", Filter::Box),
+        ("tent", Filter::tent()),
+        ("gaussian", Filter::gaussian()),
+        ("blackman-harris", Filter::blackman_harris()),
+    ];
+    let filter = section.choice("filter", &filters)?.unwrap_or_default();
+    // The more of a shape a filter has, the more keys.
+    let keys = match filter {
+        Filter::Box => 4,
+        Filter::Tent { .. } | Filter::BlackmanHarris { .. } => 5,
+        Filter::Gaussian { .. } => 6,
+    };
+    section.only(&FILM_KEYS[..keys])?;
+    let radius = |default| section.get_or("filter_radius", default);
+    Ok(match filter {
+        Filter::Box => Filter::Box,
+        Filter::Tent { radius: r } => Filter::Tent { radius: radius(r)? },
+        Filter::BlackmanHarris { radius: r } => Filter::BlackmanHarris { radius: radius(r)? },
+        Filter::Gaussian { radius: r, sigma } => {
+            Filter::Gaussian { radius: radius(r)?, sigma: section.get_or("filter_sigma", sigma)? }
+        }
     })
 }
 

@@ -81,22 +81,37 @@ pub fn read_scene(path: &Path, overrides: &[&str]) -> Result<LoadedScene, SceneF
 /// | `[film]` | `resolution` | `[columns, rows]` | `[500, 500]` |
 /// | | `crop` | the part to render, `[x0, y0, x1, y1]` without column x1 and row y1 | all |
 /// | | `display` | the curve of a PNG: `"srgb"`, or `"exposure"` for 1 - exp(-4 L) | `"srgb"` |
-/// | `[sampler]` | `type` | `"independent"` or `"stratified"` | `"independent"` |
+/// | | `filter` | `"box"`, `"tent"`, `"gaussian"` or `"blackman-harris"` | `"box"` |
+/// | | `filter_radius` | in pixels, above 0, for all but `"box"` | 1 (tent), 1.5 |
+/// | | `filter_sigma` | in pixels, above 0, for `"gaussian"` | 0.5 |
+/// | `[sampler]` | `type` | `"independent"`, `"stratified"`, `"sobol"` or `"blue-noise"` | `"independent"` |
 /// | | `spp` | samples per pixel, at least 1 | 64 |
 /// | | `seed` | each gives other samples | 0 |
-/// | `[integrator]` | `type` | `"chapter"` or `"direct"` | `"chapter"` |
+/// | | `replicates` | independent sets to tell the error from, for all but `"independent"` | 2 |
+/// | `[integrator]` | `type` | `"chapter"`, `"direct"` or `"path"` | `"chapter"` |
 /// | | `highlight` | for `"chapter"`: whether to add the Blinn-Phong factor | false |
+/// | | `max_depth` | for `"path"`: the most reflections | 5 |
+/// | | `roulette` | for `"path"`: whether paths that carry little end at random | true |
+/// | | `strategy` | for both: how light is looked for, `"auto"`, `"mis"`, `"light"` or `"bsdf"` | `"auto"` |
 /// | `[texture.NAME]` | `type` | `"constant"` | required |
 /// | | `value` | a number or `[red, green, blue]` | required |
 /// | `[material.NAME]` | `type` | `"matte"` | required |
 /// | | `kd` | reflected share, `[red, green, blue]` from 0 to 1 | 0.5 |
 /// | | `sigma` | roughness in degrees, 0 to 90 | 0 |
 /// | | `bump` | displacement along the normal | none |
-/// | `[light.NAME]` | `type` | `"point"` | required |
-/// | | `position` | `[x, y, z]` | required |
-/// | | `intensity` | in W / sr, `[red, green, blue]` of at least 0 | required |
-/// | `[shape.NAME]` | `obj` | path of an OBJ file | required |
-/// | | `material` | a material's name | required |
+/// | `[light.NAME]` | `type` | `"point"`, `"distant"` or `"sky"` | required |
+/// | | `position` | of `"point"`, `[x, y, z]` | required |
+/// | | `intensity` | of `"point"`, in W / sr, `[red, green, blue]` of at least 0 | required |
+/// | | `direction` | of `"distant"`: where the light goes, `[x, y, z]` of any length | required |
+/// | | `irradiance` | of `"distant"`: on a surface across it, in W / m², as above | required |
+/// | | `radiance` | of `"sky"`: from everywhere, in W / (m² sr), as above | required |
+/// | `[shape.NAME]` | `type` | `"obj"` or `"rectangle"` | `"obj"` |
+/// | | `obj` | of `"obj"`: path of an OBJ file | required |
+/// | | `corner` | of `"rectangle"`, `[x, y, z]` | required |
+/// | | `edges` | of `"rectangle"`: two `[x, y, z]`; their cross product points outside | required |
+/// | | `material` | a material's name; a shape with `emission` may do without, and reflects nothing | required |
+/// | | `emission` | radiance that it sends out, in W / (m² sr), `[red, green, blue]` of at least 0 | none |
+/// | | `two_sided` | whether it does so on both sides, or outside alone | false |
 /// | | `scale` | a factor other than 0, or `[x, y, z]` | 1 |
 /// | | `rotate` | `[x, y, z, degrees]`: around that axis, about +z from x to y | none |
 /// | | `translate` | `[x, y, z]` | none |
