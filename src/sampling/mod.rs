@@ -1,13 +1,19 @@
 //! Sampling: warps from the unit square to other domains, and the samplers that fill the square.
 
+mod blue_noise;
 mod hash;
 mod independent;
+mod owen;
 mod sampler;
+mod sequence;
+mod sobol;
 mod stratified;
 mod warp;
 
+pub use blue_noise::BlueNoiseSampler;
 pub use independent::IndependentSampler;
 pub use sampler::{SampleId, Sampler};
+pub use sobol::SobolSampler;
 pub use stratified::StratifiedSampler;
 pub use warp::{
     concentric_disk, cosine_hemisphere, uniform_cone, uniform_disk, uniform_hemisphere,
