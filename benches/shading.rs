@@ -3,6 +3,7 @@
 //! - `shading/lobe/*`: one question to the Bsdf of a hit.
 //! - `shading/storage/*`: a Bsdf built and asked for f and pdf, for each way to hold its lobes.
 //! - `shading/texture/*`: a constant read in place, and behind a pointer.
+//! - `shading/sampler/*`: one point of each sampler, asked for alone and together with the pixel's others.
 //! - `shading/hit/*`: all that the chapter's estimator does with a hit, through the traits and as
 //!   arithmetic written by hand.
 //!
@@ -18,10 +19,13 @@ use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterio
 use lobe::accel::Hit;
 use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, LambertianReflection, OrenNayar, TransportMode};
 use lobe::geometry::{Frame, Ray};
-use lobe::glam::{Vec2, Vec3};
+use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::interaction::SurfaceInteraction;
 use lobe::material::Material;
-use lobe::sampling::{cosine_hemisphere, uniform_hemisphere, uniform_triangle};
+use lobe::sampling::{
+    BlueNoiseSampler, IndependentSampler, SampleId, Sampler, SobolSampler, StratifiedSampler,
+    cosine_hemisphere, uniform_hemisphere, uniform_triangle,
+};
 use lobe::texture::{ConstantTexture, TextureHandle};
 use lobe::{MatteMaterial, PointLight, Scene, Spectrum, TriangleMesh};
 use smallbox::SmallBox;
@@ -183,6 +187,30 @@ fn textures(criterion: &mut Criterion) {
     measure(&mut group, "constant behind a pointer", &pool, |_| black_box(&shared).evaluate(&si));
 }
 
+fn samplers(criterion: &mut Criterion) {
+    let resolution = UVec2::splat(500);
+    let samplers: [(&str, &dyn Sampler); 4] = [
+        ("independent", &IndependentSampler::new(0)),
+        ("stratified", &StratifiedSampler::new(64, 0)),
+        ("sobol", &SobolSampler::new(0)),
+        ("blue noise", &BlueNoiseSampler::new(resolution, 64, 0)),
+    ];
+    let ids: Vec<_> = (0..16 * 64)
+        .map(|i| SampleId { pixel: UVec2::new(250 + i / 64, 99), set: 0, index: i % 64 })
+        .collect();
+    let mut group = criterion.benchmark_group("shading/sampler");
+    group.throughput(Throughput::Elements(ids.len() as u64));
+    let mut points = Vec::new();
+    for (name, sampler) in samplers {
+        group.bench_function(format!("get_2d {name}"), |bencher| {
+            bencher.iter(|| ids.iter().map(|&id| black_box(sampler).get_2d(id, 3)).sum::<Vec2>());
+        });
+        group.bench_function(format!("fill_2d {name}"), |bencher| {
+            bencher.iter(|| sampler.fill_2d(black_box(&ids), 3, &mut points));
+        });
+    }
+}
+
 fn hits(criterion: &mut Criterion) {
     let mesh = tent();
     let pool = pool(&mesh);
@@ -221,5 +249,5 @@ fn hits(criterion: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, lobes, storage, textures, hits);
+criterion_group!(benches, lobes, storage, textures, samplers, hits);
 criterion_main!(benches);

@@ -13,8 +13,10 @@ use std::time::{Duration, Instant};
 
 use crate::film::{Film, FilmContents, FilmError, Picture, Variance};
 use crate::integrator::{self, Counters, Integrator};
-use crate::sampling::{IndependentSampler, Sampler, StratifiedSampler};
-use crate::scene::{SamplerKind, SamplerSettings, Scene};
+use crate::sampling::{
+    BlueNoiseSampler, IndependentSampler, Sampler, SobolSampler, StratifiedSampler,
+};
+use crate::scene::{SamplerKind, Scene};
 use passes::Passes;
 use tiles::Tiles;
 use worker::Worker;
@@ -112,7 +114,7 @@ pub enum RenderError {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn render(scene: &Scene, options: &RenderOptions) -> Result<Rendered, RenderError> {
-    let sampler = sampler_from_settings(scene.sampler());
+    let sampler = sampler_from_settings(scene);
     let integrator = integrator::from_settings(scene);
     render_with(scene, &*integrator, &*sampler, options)
 }
@@ -225,13 +227,16 @@ impl Pass<'_> {
     }
 }
 
-/// The sampler that the settings ask for.
-fn sampler_from_settings(settings: &SamplerSettings) -> Box<dyn Sampler> {
+/// The sampler that the scene's settings ask for.
+fn sampler_from_settings(scene: &Scene) -> Box<dyn Sampler> {
+    let settings = scene.sampler();
+    let (seed, samples_per_set) = (settings.seed, settings.spp / settings.sets());
     match settings.kind {
-        SamplerKind::Independent => Box::new(IndependentSampler::new(settings.seed)),
-        SamplerKind::Stratified => {
-            Box::new(StratifiedSampler::new(settings.spp / settings.sets(), settings.seed))
+        SamplerKind::Independent => Box::new(IndependentSampler::new(seed)),
+        SamplerKind::Stratified => Box::new(StratifiedSampler::new(samples_per_set, seed)),
+        SamplerKind::Sobol => Box::new(SobolSampler::new(seed)),
+        SamplerKind::BlueNoise => {
+            Box::new(BlueNoiseSampler::new(scene.film().resolution, samples_per_set, seed))
         }
-        SamplerKind::Sobol | SamplerKind::BlueNoise => todo!(),
     }
 }

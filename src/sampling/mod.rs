@@ -1,15 +1,21 @@
 //! Sampling: warps from the unit square to other domains, and the samplers that fill the square.
 
+mod blue_noise;
 mod discrete;
 mod hash;
 mod independent;
+mod owen;
 mod sampler;
+mod sequence;
+mod sobol;
 mod stratified;
 mod warp;
 
+pub use blue_noise::BlueNoiseSampler;
 pub use discrete::Discrete;
 pub use independent::IndependentSampler;
 pub use sampler::{SampleId, Sampler};
+pub use sobol::SobolSampler;
 pub use stratified::StratifiedSampler;
 pub(crate) use warp::{LEAST_SOLID_ANGLE, Seen};
 pub use warp::{
