@@ -62,7 +62,7 @@ fn solid_angle_is_that_of_two_triangles() {
         let error = (found - truth).abs();
         // The height itself is a difference, with the rounding of f64 in it.
         let corner = case.corner.as_dvec3();
-        let rounding = 1e-15 * corner.length() / corner.dot(N).abs();
+        let rounding = 1e-14 * corner.length() / corner.dot(N).abs();
         assert!(
             error <= 1e-7 * truth + 1e-14 + rounding,
             "trial {trial}: {found}, expected {truth}"
@@ -85,7 +85,10 @@ fn points_are_at_their_share_of_the_solid_angle() {
     for trial in 0..30_000 {
         let case = Case::random(&mut Rng::new(911, trial));
         let truth = case.solid_angle([0.0, 1.0], [0.0, 1.0]);
-        let Some(seen) = case.seen().filter(|_| truth > 1e-6) else { continue };
+        // Closer to the plane, the solid angles that stand for the truth are noise.
+        let corner = case.corner.as_dvec3();
+        let fine = truth > 1e-6 && corner.dot(N).abs() > 1e-8 * corner.length();
+        let Some(seen) = case.seen().filter(|_| fine) else { continue };
         let mut rng = Rng::new(912, trial);
         let random = [rng.square(), rng.square()];
         let edge = EDGE.into_iter().flat_map(|x| EDGE.map(|y| Vec2::new(x, y)));
