@@ -11,7 +11,8 @@ use lobe::film::{Display, Filter, Window};
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::light::Light;
 use lobe::scene::{
-    IntegratorSettings, LightStrategy, LoadedScene, SamplerKind, SceneFileError, parse_scene, read_scene,
+    IntegratorSettings, LightStrategy, LoadedScene, SamplerKind, SceneFileError, parse_scene,
+    read_scene,
 };
 
 /// A folder of this test's own with a triangle in it.
@@ -146,11 +147,8 @@ fn a_file_with_light_gives_its_scene() {
     assert_eq!(scene.film().filter, Filter::Gaussian { radius: 1.5, sigma: 0.4 });
     let sampler = scene.sampler();
     assert_eq!((sampler.kind, sampler.replicates), (SamplerKind::BlueNoise, 4));
-    let path = IntegratorSettings::Path {
-        max_depth: 9,
-        roulette: false,
-        strategy: LightStrategy::Mis,
-    };
+    let path =
+        IntegratorSettings::Path { max_depth: 9, roulette: false, strategy: LightStrategy::Mis };
     assert_eq!(*scene.integrator(), path);
 
     let [sun, sky, lamp] = scene.lights() else { panic!("{} lights", scene.lights().len()) };
@@ -297,7 +295,10 @@ fn missing_keys() {
             "s.toml:2:1: [texture.t] lacks `value`, expected a number or [red, green, blue], all finite",
         ),
         ("[material.m]", "s.toml:1:1: [material.m] lacks `type`, expected \"matte\""),
-        ("[light.l]", "s.toml:1:1: [light.l] lacks `type`, expected \"point\", \"distant\" or \"sky\""),
+        (
+            "[light.l]",
+            "s.toml:1:1: [light.l] lacks `type`, expected \"point\", \"distant\" or \"sky\"",
+        ),
         (
             "[light.l]\ntype = \"point\"\nintensity = [1, 1, 1]",
             "s.toml:1:1: [light.l] lacks `position`, expected an array of 3, each a finite number",

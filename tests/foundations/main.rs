@@ -11,6 +11,7 @@ mod energy;
 mod floats;
 mod frames;
 mod interaction;
+mod lights;
 mod optics;
 mod rays;
 mod sampling;

@@ -86,8 +86,8 @@ impl Seen {
     pub(crate) fn new(start: DVec2, end: DVec2, z: f64) -> Self {
         let z = z.abs();
         let left = strip(start.x, start.y, end.y, z);
-        let across = strip(end.x, start.y, end.y, z);
-        let angle = (left.perp_dot(across)).atan2(left.dot(across));
+        let right = strip(end.x, start.y, end.y, z);
+        let angle = left.perp_dot(right).atan2(left.dot(right));
         // More than a half turn: only the sum of four positive angles goes that far.
         let above = start.cmple(DVec2::ZERO).all() && end.cmpge(DVec2::ZERO).all();
         let angle = if above && angle < 0.0 { angle + std::f64::consts::TAU } else { angle };
@@ -102,15 +102,19 @@ impl Seen {
         // E(x), a turn of E(x₀).
         let e = self.left.normalize();
         let e = DVec2::from_angle(f64::from(u.x) * self.solid_angle).rotate(e);
-        // c, the sine of the angle of x against the z axis, from E = asin(s₁ c) - asin(s₀ c): in the
-        // triangle with these two angles and the sides s₁ and s₀, 1 / c is the circumscribed circle's
-        // diameter.
-        let (squares0, squares1) = (y0 * y0 + z2, y1 * y1 + z2);
-        let product = y0 * y1 / (squares0 * squares1).sqrt();
-        let third2 = y0 * y0 / squares0 + y1 * y1 / squares1 - 2.0 * product * e.x;
-        let sine2 = e.y * e.y;
-        let x = self.z * e.y / (third2 - sine2).max(0.0).sqrt();
-        // 0 / 0 is the left out middle of a rectangle without an inside.
+        // The half angle's cosine and sine, of any common length.
+        let [c, s] =
+            if e.x > 0.0 { [1.0 + e.x, e.y] } else { [e.y.abs(), (1.0 - e.x).copysign(e.y)] };
+        // x from E = asin(s₁ k) - asin(s₀ k), where s is the sine of the angle of y against the z axis, t its
+        // cosine, and k the sine of that of x: two angles of a triangle with the sides s₁ and s₀, whose
+        // circumscribed circle has the diameter 1 / k. √(1 - k²) factored, so that no digits are lost.
+        let (r0, r1) = ((y0 * y0 + z2).sqrt(), (y1 * y1 + z2).sqrt());
+        let span = across(y0, y1, r0, r1, z2) / (r0 * r1);
+        let (sum, cosines) = (y0 / r0 + y1 / r1, self.z / r0 + self.z / r1);
+        let outer = (span * c - cosines * s) * (span * c + cosines * s);
+        let inner = (cosines * c - sum * s) * (cosines * c + sum * s);
+        let x = 2.0 * self.z * s * c * cosines / (outer.max(0.0) * inner.max(0.0)).sqrt();
+        // Beyond the edges by rounding, or all of it noise.
         let x = x.max(self.start.x).min(self.end.x);
         // On the line of this x, the sine of the angle of y is uniform.
         let depth2 = x * x + z2;
@@ -134,7 +138,16 @@ impl Seen {
 #[inline]
 fn strip(x: f64, y0: f64, y1: f64, z: f64) -> DVec2 {
     let distance2 = x * x + z * z;
-    let lower = DVec2::new(z * (distance2 + y0 * y0).sqrt(), -x * y0);
-    let upper = DVec2::new(z * (distance2 + y1 * y1).sqrt(), x * y1);
-    lower.rotate(upper)
+    let (r0, r1) = ((distance2 + y0 * y0).sqrt(), (distance2 + y1 * y1).sqrt());
+    DVec2::new(z * z * r0 * r1 + x * x * y0 * y1, x * z * across(y0, y1, r0, r1, distance2))
+}
+
+/// y₁ r₀ - y₀ r₁ for r² = y² + `distance2`, without the loss of digits where y₀ is close to y₁.
+#[inline]
+fn across(y0: f64, y1: f64, r0: f64, r1: f64, distance2: f64) -> f64 {
+    if y0 * y1 > 0.0 {
+        distance2 * (y1 - y0) * (y1 + y0) / (y1 * r0 + y0 * r1)
+    } else {
+        y1 * r0 - y0 * r1
+    }
 }

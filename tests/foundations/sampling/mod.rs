@@ -1,8 +1,13 @@
 //! Warps, samplers, and the permutation behind stratified samples.
 
 mod blue_noise;
+mod discrete;
+mod domains;
 mod domains;
 mod permutation;
+mod permutation;
+mod samplers;
 mod samplers;
 mod sobol;
+mod spherical_rectangle;
 mod warps;
