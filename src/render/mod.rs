@@ -8,7 +8,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use crate::film::{Film, FilmError, Picture};
+use crate::film::{Film, FilmContents, FilmError, Picture};
 use crate::integrator::{self, Counters, Integrator};
 use crate::sampling::{IndependentSampler, Sampler, StratifiedSampler};
 use crate::scene::{SamplerKind, SamplerSettings, Scene};
@@ -107,7 +107,8 @@ pub fn render_with(
 ) -> Result<Rendered, RenderError> {
     let start = Instant::now();
     let settings = scene.film();
-    let film = Film::new(settings.resolution, settings.window(), options.layers)?;
+    let contents = FilmContents { first_hits: options.layers, ..FilmContents::default() };
+    let film = Film::new(settings.resolution, settings.window(), contents)?;
     let tiles = Tiles::new(settings.window(), options.tile_size);
     let shared = Mutex::new((film, Counters::default(), 0));
     let threads = options.threads.or_else(|| std::thread::available_parallelism().ok());

@@ -4,7 +4,7 @@ use glam::UVec2;
 
 use super::RenderOptions;
 use crate::bxdf::{BxdfFlags, TransportMode};
-use crate::film::{Film, FilmError, Window};
+use crate::film::{Film, FilmContents, FilmError, Window};
 use crate::integrator::{Counters, Integrator, Wave};
 use crate::sampling::{SampleId, Sampler};
 use crate::scene::Scene;
@@ -38,7 +38,8 @@ impl<'a> Worker<'a> {
         let film = scene.film();
         let size = film.window().size().min(UVec2::splat(options.tile_size.max(1)));
         let largest = Window { min: UVec2::ZERO, max: size };
-        let tile = Film::new(film.resolution, largest, options.layers)?;
+        let contents = FilmContents { first_hits: options.layers, ..FilmContents::default() };
+        let tile = Film::new(film.resolution, largest, contents)?;
         Ok(Self {
             scene,
             integrator,
@@ -65,7 +66,7 @@ impl<'a> Worker<'a> {
             self.wave.begin(self.scene, self.sampler, ids);
             self.integrator.shade(self.scene, self.sampler, &mut self.wave);
             for (id, &radiance) in self.wave.ids.iter().zip(&self.wave.radiance) {
-                self.tile.add_sample(id.pixel, radiance);
+                self.tile.add_sample(id.pixel, id.set, radiance);
             }
             if self.tile.has_layers() {
                 self.add_first_hits();
