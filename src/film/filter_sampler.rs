@@ -9,7 +9,7 @@ use super::{Filter, FilterError};
 /// On each axis the place is a function of that axis' number alone and never decreases with it, so points that
 /// are spread evenly stay so. Box and tent are inverted in closed form. For the others the density is a chain of
 /// straight lines, which is inverted exactly; it differs from the filter's by less than 10⁻⁴ of its
-/// peak, and the cumulative distribution by less than 2 · 10⁻⁵ (2 · 10⁻⁶ with the default shapes).
+/// peak, and the cumulative distribution by less than 5 · 10⁻⁶ (2 · 10⁻⁶ with the default shapes).
 ///
 /// ```
 /// use lobe::film::{Filter, FilterSampler};

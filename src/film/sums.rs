@@ -98,8 +98,8 @@ impl Film {
     ) -> Result<Self, FilmError> {
         let area = window.area();
         let first_hits = if contents.first_hits { size_of::<FirstHits>() } else { 0 };
-        // Colour and layers once as sums, once developed, and once more while they are written; of the
-        // variance the last two are of 12 bytes each.
+        // Colour and layers once as sums, once developed, and once more while they are written; the last two
+        // of the variance are a spectrum each.
         let spread = contents.variance.bytes();
         let developed = if spread > 0 { 2 * size_of::<Spectrum>() as u64 } else { 0 };
         let per_pixel = 3 * (size_of::<Sum>() + first_hits) as u64 + spread + developed;

@@ -56,8 +56,7 @@ fn extent(filter: Filter) -> f64 {
     }
 }
 
-/// A million samples over 24 × 24 cells against the formula. Caught: the root without the slope; a cell's width
-/// short of one; the Gaussian with the value at its radius.
+/// A million samples over 24 × 24 cells against the formula.
 #[test]
 fn places_are_in_proportion_to_the_filter() {
     const SIDE: usize = 24;
@@ -82,7 +81,7 @@ fn places_are_in_proportion_to_the_filter() {
     }
 }
 
-/// Mean and mean square on each axis. Caught: a Gaussian's sigma that is its variance.
+/// Mean and mean square on each axis.
 #[test]
 fn moments_are_the_filters() {
     for (number, filter) in FILTERS.into_iter().enumerate() {
@@ -101,7 +100,7 @@ fn moments_are_the_filters() {
     }
 }
 
-/// At 4001 places u, the share of the filter that lies below the place is u. Caught: 128 cells.
+/// At 4001 places u, the share of the filter that lies below the place is u.
 #[test]
 fn the_share_below_a_place_is_u() {
     for filter in FILTERS {
@@ -118,12 +117,12 @@ fn the_share_below_a_place_is_u() {
         }
         let default = [Filter::gaussian(), Filter::blackman_harris()].contains(&filter);
         println!("{filter:?}: {worst:e}");
-        assert!(worst < if default { 2e-6 } else { 2e-5 }, "{filter:?}: {worst:e}");
+        assert!(worst < if default { 2e-6 } else { 5e-6 }, "{filter:?}: {worst:e}");
     }
 }
 
 /// In range at the ends, zero in the middle, and never decreasing: at 2¹⁶ neighbours from each of several
-/// places and at a million places in order. Caught: `within` not held below one; the root that cancels.
+/// places and at a million places in order.
 #[test]
 fn places_never_decrease() {
     let ulp = 2.0_f32.powi(-24);
@@ -149,7 +148,6 @@ fn places_never_decrease() {
     }
 }
 
-/// Caught: the value of x alone; the value beyond the radius.
 #[test]
 fn values_are_the_formulas() {
     let mut rng = Rng::new(42, 0);
@@ -168,7 +166,6 @@ fn values_are_the_formulas() {
     }
 }
 
-/// Caught: each condition of `Filter::check` taken away.
 #[test]
 fn filters_without_sense_are_refused() {
     let radius = "the filter's radius is {}: it has to be above 0 and at most 16 pixels";
