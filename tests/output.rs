@@ -66,10 +66,12 @@ fn crop() -> Picture {
         resolution: UVec2::new(20, 50),
         window,
         color: (0..n).map(|i| triple(i, 0).into()).collect(),
+        variance: Some((0..n).map(|i| triple(i, 4).into()).collect()),
         layers: Some(Layers {
             normal: (0..n).map(|i| triple(i, 1).into()).collect(),
             depth: (0..n).map(|i| value(7 * i + 2)).collect(),
             albedo: (0..n).map(|i| triple(i, 3).into()).collect(),
+            samples: (0..n).map(|i| value(7 * i + 5).to_bits()).collect(),
         }),
     }
 }
@@ -82,6 +84,7 @@ fn ramp() -> Picture {
         resolution,
         window: Window::full(resolution),
         color: (0..1200).map(color).collect(),
+        variance: None,
         layers: None,
     }
 }
@@ -98,10 +101,20 @@ fn metadata() -> Metadata {
 /// What the EXR file should hold, by channel, as bits.
 fn channels(picture: &Picture) -> BTreeMap<String, Vec<u32>> {
     let mut expected = BTreeMap::<String, Vec<u32>>::new();
-    let mut put = |name: &str, value: f32| {
-        expected.entry(name.to_owned()).or_default().push(value.to_bits());
+    let mut put_bits = |name: &str, bits: u32| {
+        expected.entry(name.to_owned()).or_default().push(bits);
     };
     for pixel in 0..picture.window.area() {
+        if let Some(layers) = &picture.layers {
+            put_bits("samples.N", layers.samples[pixel]);
+        }
+        let mut put = |name: &str, value: f32| put_bits(name, value.to_bits());
+        if let Some(variance) = &picture.variance {
+            let [r, g, b] = variance[pixel].to_array();
+            for (name, value) in [("variance.R", r), ("variance.G", g), ("variance.B", b)] {
+                put(name, value);
+            }
+        }
         let [r, g, b] = picture.color[pixel].to_array();
         for (name, value) in [("R", r), ("G", g), ("B", b)] {
             put(name, value);
@@ -281,7 +294,10 @@ fn exr_holds_what_was_written() {
 
         let list = &layer.channel_data.list;
         let found = list.iter().map(|channel| match &channel.sample_data {
-            FlatSamples::F32(samples) => {
+            FlatSamples::U32(samples) if channel.name == *"samples.N" => {
+                (channel.name.to_string(), samples.clone())
+            }
+            FlatSamples::F32(samples) if channel.name != *"samples.N" => {
                 (channel.name.to_string(), samples.iter().map(|s| s.to_bits()).collect())
             }
             other => panic!("{} is {other:?}", channel.name),
@@ -421,7 +437,7 @@ fn a_picture_that_contradicts_itself_is_refused() {
     let folder = Folder::new("contradiction");
     let path = folder.file("x");
     type Break = fn(&mut Picture);
-    let cases: [(Break, &str); 8] = [
+    let cases: [(Break, &str); 10] = [
         (|p| p.window.max.x = 21, "its window reaches beyond the image"),
         (|p| p.window.min.y = 41, "its window holds no pixel"),
         (|p| p.window.min.x = 17, "its window holds no pixel"),
@@ -430,6 +446,8 @@ fn a_picture_that_contradicts_itself_is_refused() {
         (|p| layers(p).normal.clear(), "its window has 507 pixels, but 0 values of normal"),
         (|p| layers(p).depth.push(1.0), "its window has 507 pixels, but 508 values of depth"),
         (|p| layers(p).albedo.clear(), "its window has 507 pixels, but 0 values of albedo"),
+        (|p| layers(p).samples.clear(), "its window has 507 pixels, but 0 values of samples"),
+        (|p| p.variance = Some(vec![]), "its window has 507 pixels, but 0 values of variance"),
     ];
     for (break_it, reason) in cases {
         let mut picture = crop();
@@ -448,7 +466,8 @@ fn the_last_pixel_of_the_largest_image_can_be_written() {
     let path = folder.file("x");
     let resolution = UVec2::splat((1 << 30) - 2);
     let window = Window { min: resolution - 1, max: resolution };
-    let picture = Picture { resolution, window, color: vec![Spectrum::WHITE], layers: None };
+    let picture =
+        Picture { resolution, window, color: vec![Spectrum::WHITE], variance: None, layers: None };
     write_exr(&path, &picture, &metadata()).unwrap();
     assert_eq!(read_exr(&path).layer_data[0].size, Vec2(1, 1));
     write_png(&path, &picture, Display::Srgb, &metadata()).unwrap();
@@ -575,7 +594,10 @@ fn the_openexr_tools_read_the_same() {
     if let Some(said) = tool("exrheader", &path) {
         let names: Vec<_> = channels(&crop()).into_keys().collect();
         let found = said.lines().filter_map(|line| {
-            line.split_once(", 32-bit floating-point, sampling 1 1").map(|(name, _)| name.trim())
+            let (name, kind) = line.split_once(", 32-bit ")?;
+            let samples = name.trim() == "samples.N";
+            let expected = if samples { "unsigned integer" } else { "floating-point" };
+            (kind == format!("{expected}, sampling 1 1")).then_some(name.trim())
         });
         assert_eq!(found.collect::<Vec<_>>(), names);
         for line in [
@@ -633,7 +655,8 @@ for name, channel in file.channels().items():
         let expected = channels(&crop()).into_iter().map(|(name, bits)| {
             let hex: String =
                 bits.iter().flat_map(|b| b.to_le_bytes()).map(|b| format!("{b:02x}")).collect();
-            format!("{name} float32 39 13 {hex}")
+            let kind = if name == "samples.N" { "uint32" } else { "float32" };
+            format!("{name} {kind} 39 13 {hex}")
         });
         assert_eq!(said.lines().collect::<Vec<_>>(), expected.collect::<Vec<_>>());
     }

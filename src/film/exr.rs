@@ -24,10 +24,18 @@ const REC_709: Chromaticities = Chromaticities {
 /// Writes a picture as an OpenEXR file of linear `f32`, bit for bit, compressed without loss (ZIP,
 /// line by line).
 ///
-/// The file has one part. Channels `R`, `G` and `B` hold the radiance; with
-/// [`Picture::layers`] there are also `normal.X`, `normal.Y`, `normal.Z`, `depth.Z`, `albedo.R`,
-/// `albedo.G` and `albedo.B`. The data window is the picture's window and the display window the whole
-/// image. Attributes:
+/// The file has one part, with these channels:
+///
+/// | names | type | content |
+/// |---|---|---|
+/// | `R`, `G`, `B` | float | the radiance |
+/// | `variance.R`, `variance.G`, `variance.B` | float | [`Picture::variance`], if there is one |
+/// | `normal.X`, `normal.Y`, `normal.Z` | float | [`Layers::normal`](super::Layers::normal), if there are layers |
+/// | `depth.Z` | float | [`Layers::depth`](super::Layers::depth), likewise |
+/// | `albedo.R`, `albedo.G`, `albedo.B` | float | [`Layers::albedo`](super::Layers::albedo), likewise |
+/// | `samples.N` | uint | [`Layers::samples`](super::Layers::samples), likewise |
+///
+/// The data window is the picture's window and the display window the whole image. Attributes:
 ///
 /// | name | type | content |
 /// |---|---|---|
@@ -112,12 +120,17 @@ fn layer_attributes(picture: &Picture, metadata: &Metadata) -> LayerAttributes {
 fn channels(picture: &Picture) -> AnyChannels<FlatSamples> {
     let mut list = Vec::new();
     push_bands(&mut list, ["R", "G", "B"], &picture.color, |c| c.to_array());
+    if let Some(variance) = &picture.variance {
+        let names = ["variance.R", "variance.G", "variance.B"];
+        push_bands(&mut list, names, variance, |v| v.to_array());
+    }
     if let Some(layers) = &picture.layers {
         let normal = ["normal.X", "normal.Y", "normal.Z"];
         push_bands(&mut list, normal, &layers.normal, |n| n.to_array());
         push_bands(&mut list, ["depth.Z"], &layers.depth, |&z| [z]);
         let albedo = ["albedo.R", "albedo.G", "albedo.B"];
         push_bands(&mut list, albedo, &layers.albedo, |a| a.to_array());
+        list.push(AnyChannel::new("samples.N", FlatSamples::U32(layers.samples.clone())));
     }
     AnyChannels::sort(list.into())
 }

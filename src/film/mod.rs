@@ -3,18 +3,22 @@
 mod display;
 mod exr;
 mod filter;
+mod filter_sampler;
 mod output;
 mod picture;
 mod png;
+mod spread;
 mod sums;
 
 pub use display::Display;
 pub use exr::write_exr;
-pub use filter::Filter;
+pub use filter::{Filter, FilterError};
+pub use filter_sampler::FilterSampler;
 pub use output::{OutputError, check_writable};
 pub use picture::{Layers, Metadata, Picture, Window};
 pub use png::write_png;
-pub use sums::{Film, FilmContents, FilmError, Variance};
+pub use spread::Variance;
+pub use sums::{Film, FilmContents, FilmError};
 
 /// The name that files give for their maker.
 const SOFTWARE: &str = concat!("lobe ", env!("CARGO_PKG_VERSION"));

@@ -30,8 +30,8 @@ impl Window {
     }
 }
 
-/// What a renderer knows about the first hit of each pixel, averaged over the samples that hit.
-/// A pixel that no sample hits has zero in all of them.
+/// What a renderer knows about the first hit of each pixel, averaged over the samples that hit, and the
+/// number of samples. A pixel that no sample hits has zero in all averages.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layers {
     /// Shading normals in world space, not normalised again after averaging.
@@ -40,6 +40,8 @@ pub struct Layers {
     pub depth: Vec<f32>,
     /// Share of light that the surface reflects towards the camera under a uniform sky.
     pub albedo: Vec<Spectrum>,
+    /// How many samples the radiance is the mean of, whether they hit or not.
+    pub samples: Vec<u32>,
 }
 
 /// A developed film: linear radiance by pixel, row by row from the top left of the window.
@@ -51,11 +53,24 @@ pub struct Picture {
     pub window: Window,
     /// Mean radiance of each pixel of the window.
     pub color: Vec<Spectrum>,
+    /// Variance of each mean: the square of its standard error, by band. Infinite where there was too little to
+    /// tell it from. `None` if nothing is known of it, or nobody asked.
+    pub variance: Option<Vec<Spectrum>>,
     /// The first hits, when the render was asked for them.
     pub layers: Option<Layers>,
 }
 
 impl Picture {
+    /// How far off the radiance is: the root of the mean variance over all bands of all pixels whose
+    /// variance is finite. `None` if there are none.
+    pub fn standard_error(&self) -> Option<f64> {
+        let bands = self.variance.iter().flatten().flat_map(|v| v.to_array());
+        let (sum, count) = bands
+            .filter(|band| band.is_finite())
+            .fold((0.0, 0_u64), |(sum, count), band| (sum + f64::from(band), count + 1));
+        (count > 0).then(|| (sum / count as f64).sqrt())
+    }
+
     /// Whether a file can hold it: the window lies in the image, and every list has one value for
     /// each of the window's pixels. If not, a clause that says what is wrong.
     pub(super) fn check(&self) -> Result<(), String> {
@@ -72,10 +87,14 @@ impl Picture {
             return Err("its window holds no pixel".to_owned());
         }
         let mut counts = vec![("colour", self.color.len())];
-        if let Some(Layers { normal, depth, albedo }) = &self.layers {
+        if let Some(variance) = &self.variance {
+            counts.push(("variance", variance.len()));
+        }
+        if let Some(Layers { normal, depth, albedo, samples }) = &self.layers {
             counts.push(("normal", normal.len()));
             counts.push(("depth", depth.len()));
             counts.push(("albedo", albedo.len()));
+            counts.push(("samples", samples.len()));
         }
         let area = window.area();
         match counts.into_iter().find(|&(_, count)| count != area) {

@@ -2,7 +2,8 @@
 
 use glam::{UVec2, Vec3};
 
-use super::{Layers, Picture, Window};
+use super::spread::Spread;
+use super::{Layers, Picture, Variance, Window};
 use crate::Spectrum;
 
 /// Why there is no film.
@@ -16,7 +17,17 @@ pub enum FilmError {
     TooLarge(u32, u32, u64),
 }
 
-/// Sums of the samples of each pixel under a box filter, in f64: a million samples lose nothing.
+/// What a film keeps beside the radiance. None of it changes the radiance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FilmContents {
+    /// From what it tells how far off the radiance is.
+    pub variance: Variance,
+    /// Whether it keeps the first hits: the picture's [`Layers`].
+    pub first_hits: bool,
+}
+
+/// Sums of the samples of each pixel, all of which count the same, in f64: a million samples lose nothing.
+/// A pixel holds fewer than 2³² samples.
 ///
 /// A sample that is not finite is left out of its pixel and counted in
 /// [`non_finite`](Film::non_finite).
@@ -24,15 +35,36 @@ pub enum FilmError {
 pub struct Film {
     resolution: UVec2,
     window: Window,
-    pixels: Vec<Pixel>,
+    contents: FilmContents,
+    pixels: Vec<Sum>,
+    spread: Spread,
     layers: Option<Vec<FirstHits>>,
     non_finite: u64,
 }
 
+/// Sum of some samples.
 #[derive(Clone, Copy, Debug, Default)]
-struct Pixel {
-    sum: [f64; 3],
-    samples: u32,
+pub(super) struct Sum {
+    pub values: [f64; 3],
+    pub samples: u32,
+}
+
+impl Sum {
+    #[inline]
+    pub fn add(&mut self, values: [f32; 3]) {
+        add(&mut self.values, values.map(f64::from));
+        self.samples += 1;
+    }
+
+    pub fn merge(&mut self, other: &Self) {
+        add(&mut self.values, other.values);
+        self.samples += other.samples;
+    }
+
+    /// The mean; zero without samples.
+    pub fn mean(&self) -> [f64; 3] {
+        self.values.map(|sum| sum / f64::from(self.samples.max(1)))
+    }
 }
 
 /// Sums over the samples that hit something.
@@ -44,47 +76,44 @@ struct FirstHits {
     hits: u32,
 }
 
-/// stub
-#[derive(Clone, Copy)]
-pub enum Variance {
-    /// stub
-    None,
-    /// stub
-    OfSamples,
-    /// stub
-    OfSets,
+impl FirstHits {
+    fn merge(&mut self, other: &Self) {
+        add(&mut self.normal, other.normal);
+        add(&mut self.albedo, other.albedo);
+        self.depth += other.depth;
+        self.hits += other.hits;
+    }
 }
-/// stub
-#[derive(Clone, Copy)]
-pub struct FilmContents {
-    /// stub
-    pub sets: u32,
-    /// stub
-    pub variance: Variance,
-    /// stub
-    pub first_hits: bool,
-}
+
 impl Film {
-    /// An empty film for the pixels of `window` in an image of `resolution`, with room for the first
-    /// hits if `layers` says so. Fails if the film, its picture and the files made from them would not
-    /// fit into memory.
+    /// An empty film for the pixels of `window` in an image of `resolution`. Fails if the film, its picture and
+    /// the files made from them would not fit into memory.
     ///
     /// # Errors
     /// [`FilmError::TooLarge`] when the system refuses the memory.
-    pub fn new(resolution: UVec2, window: Window, c: FilmContents) -> Result<Self, FilmError> {
-        let layers = c.first_hits;
-        // Colour and layers once as sums, once developed, and once more while they are written.
-        let per_pixel = size_of::<Pixel>() + if layers { size_of::<FirstHits>() } else { 0 };
-        let bytes = (window.area() as u64).saturating_mul(3 * per_pixel as u64);
+    pub fn new(
+        resolution: UVec2,
+        window: Window,
+        contents: FilmContents,
+    ) -> Result<Self, FilmError> {
+        let area = window.area();
+        let first_hits = if contents.first_hits { size_of::<FirstHits>() } else { 0 };
+        // Colour and layers once as sums, once developed, and once more while they are written; the last two
+        // of the variance are a spectrum each.
+        let spread = contents.variance.bytes();
+        let developed = if spread > 0 { 2 * size_of::<Spectrum>() as u64 } else { 0 };
+        let per_pixel = 3 * (size_of::<Sum>() + first_hits) as u64 + spread + developed;
+        let bytes = (area as u64).saturating_mul(per_pixel);
         let too_large = FilmError::TooLarge(window.size().x, window.size().y, bytes >> 20);
         let fits =
             usize::try_from(bytes).is_ok_and(|b| Vec::<u8>::new().try_reserve_exact(b).is_ok());
         if !fits {
             return Err(too_large);
         }
-        let pixels = zeroed(window.area()).ok_or(too_large)?;
-        let layers = if layers { Some(zeroed(window.area()).ok_or(too_large)?) } else { None };
-        Ok(Self { resolution, window, pixels, layers, non_finite: 0 })
+        let pixels = zeroed(area).ok_or(too_large)?;
+        let spread = Spread::new(contents.variance, area).ok_or(too_large)?;
+        let layers = if contents.first_hits { Some(zeroed(area).ok_or(too_large)?) } else { None };
+        Ok(Self { resolution, window, contents, pixels, spread, layers, non_finite: 0 })
     }
 
     /// Forgets all samples and stands for another window, no larger than the first one.
@@ -92,7 +121,8 @@ impl Film {
         self.window = window;
         self.non_finite = 0;
         self.pixels.clear();
-        self.pixels.resize(window.area(), Pixel::default());
+        self.pixels.resize(window.area(), Sum::default());
+        self.spread.reset(window.area());
         if let Some(layers) = &mut self.layers {
             layers.clear();
             layers.resize(window.area(), FirstHits::default());
@@ -109,17 +139,18 @@ impl Film {
         self.non_finite
     }
 
-    /// Adds a sample of the radiance at `pixel`, which lies in the window.
+    /// Adds a sample of the radiance at `pixel`, which lies in the window. It belongs to the independent set
+    /// of this number, which is only looked at for [`Variance::OfSets`] and is below that number of sets.
     #[inline]
-    pub fn add_sample(&mut self, pixel: UVec2, _set: u32, radiance: Spectrum) {
+    pub fn add_sample(&mut self, pixel: UVec2, set: u32, radiance: Spectrum) {
         if !radiance.is_finite() {
             self.non_finite += 1;
             return;
         }
         let place = self.place(pixel);
-        let pixel = &mut self.pixels[place];
-        add(&mut pixel.sum, radiance.to_array());
-        pixel.samples += 1;
+        let sum = &mut self.pixels[place];
+        sum.add(radiance.to_array());
+        self.spread.add(place, set, radiance.to_array(), sum);
     }
 
     /// Adds what a sample of `pixel` met first, if all of it is finite, and counts it otherwise. Nothing
@@ -133,36 +164,58 @@ impl Film {
             return;
         }
         let hits = &mut layers[place];
-        add(&mut hits.normal, normal.to_array());
-        add(&mut hits.albedo, albedo.to_array());
+        add(&mut hits.normal, normal.to_array().map(f64::from));
+        add(&mut hits.albedo, albedo.to_array().map(f64::from));
         hits.depth += f64::from(depth);
         hits.hits += 1;
     }
 
-    /// Takes over the pixels of a film for a part of this one's window.
+    /// Adds the samples of a film for a part of this one's window, as if they had been added here one by one
+    /// (up to rounding; merged into an empty film they are the same bits).
+    ///
+    /// # Panics
+    /// If the film's contents are others, or its window reaches beyond this one's.
     pub fn merge(&mut self, tile: &Film) {
+        assert_eq!(self.contents, tile.contents, "a tile keeps what its film keeps");
         self.non_finite += tile.non_finite;
         let width = tile.window.size().x as usize;
         for (row, y) in (tile.window.min.y..tile.window.max.y).enumerate() {
-            let from = row * width..(row + 1) * width;
-            let to = self.place(UVec2::new(tile.window.min.x, y));
-            self.pixels[to..to + width].copy_from_slice(&tile.pixels[from.clone()]);
-            if let (Some(layers), Some(of_tile)) = (&mut self.layers, &tile.layers) {
-                layers[to..to + width].copy_from_slice(&of_tile[from]);
+            let start = self.place(UVec2::new(tile.window.min.x, y));
+            for (to, from) in (start..start + width).zip(row * width..) {
+                let other = &tile.pixels[from];
+                self.spread.merge(to, &self.pixels[to], &tile.spread, from, other);
+                self.pixels[to].merge(other);
+                if let (Some(layers), Some(of_tile)) = (&mut self.layers, &tile.layers) {
+                    layers[to].merge(&of_tile[from]);
+                }
             }
         }
     }
 
-    /// The mean of each pixel.
+    /// The mean of each pixel, and how far off it is.
     pub fn develop(&self) -> Picture {
         let mean = |sum: [f64; 3], count: u32| sum.map(|s| (s / f64::from(count.max(1))) as f32);
         let layers = self.layers.as_ref().map(|layers| Layers {
             normal: layers.iter().map(|l| mean(l.normal, l.hits).into()).collect(),
             depth: layers.iter().map(|l| (l.depth / f64::from(l.hits.max(1))) as f32).collect(),
             albedo: layers.iter().map(|l| mean(l.albedo, l.hits).into()).collect(),
+            samples: self.pixels.iter().map(|p| p.samples).collect(),
         });
-        let color = self.pixels.iter().map(|p| mean(p.sum, p.samples).into()).collect();
-        Picture { resolution: self.resolution, window: self.window, color, layers }
+        let color = self.pixels.iter().map(|p| p.mean().map(|m| m as f32).into()).collect();
+        let variance = self.variance();
+        Picture { resolution: self.resolution, window: self.window, color, variance, layers }
+    }
+
+    /// The variance of each pixel's mean; `None` if no pixel has any.
+    fn variance(&self) -> Option<Vec<Spectrum>> {
+        let of = |(place, sum)| self.spread.variance(place, sum);
+        let known = self.pixels.iter().enumerate().any(|pixel| of(pixel).is_some());
+        known.then(|| {
+            let variances = self.pixels.iter().enumerate().map(|pixel| {
+                of(pixel).map_or([f32::INFINITY; 3], |v| v.map(|band| band as f32)).into()
+            });
+            variances.collect()
+        })
     }
 
     #[inline]
@@ -173,14 +226,14 @@ impl Film {
 }
 
 #[inline]
-fn add(sum: &mut [f64; 3], values: [f32; 3]) {
+fn add(sum: &mut [f64; 3], values: [f64; 3]) {
     for (sum, value) in sum.iter_mut().zip(values) {
-        *sum += f64::from(value);
+        *sum += value;
     }
 }
 
 /// `count` default values, or `None` if there is no memory for them.
-fn zeroed<T: Clone + Default>(count: usize) -> Option<Vec<T>> {
+pub(super) fn zeroed<T: Clone + Default>(count: usize) -> Option<Vec<T>> {
     let mut values = Vec::new();
     values.try_reserve_exact(count).ok()?;
     values.resize(count, T::default());

@@ -8,6 +8,7 @@ mod common;
 
 mod bxdf;
 mod energy;
+mod filters;
 mod floats;
 mod frames;
 mod interaction;

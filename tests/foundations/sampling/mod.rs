@@ -3,10 +3,7 @@
 mod blue_noise;
 mod discrete;
 mod domains;
-mod domains;
 mod permutation;
-mod permutation;
-mod samplers;
 mod samplers;
 mod sobol;
 mod spherical_rectangle;
