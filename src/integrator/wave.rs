@@ -4,7 +4,6 @@ use super::paths::Paths;
 use crate::Spectrum;
 use crate::accel::Hit;
 use crate::bxdf::Arena;
-use crate::camera::Camera;
 use crate::geometry::Ray;
 use crate::sampling::{SampleId, Sampler};
 use crate::scene::Scene;
@@ -111,7 +110,7 @@ impl Wave {
     ) {
         self.ids.clear();
         self.ids.extend(ids);
-        self.generate_rays(scene.camera(), sampler);
+        self.generate_rays(scene, sampler);
         self.counters.camera_rays += self.rays.len() as u64;
         self.hits.clear();
         self.hits.resize(self.rays.len(), Hit::MISS);
@@ -123,13 +122,14 @@ impl Wave {
 
 impl Wave {
     #[inline(never)]
-    fn generate_rays(&mut self, camera: &Camera, sampler: &dyn Sampler) {
+    fn generate_rays(&mut self, scene: &Scene, sampler: &dyn Sampler) {
+        let (camera, filter) = (scene.camera(), scene.filter());
         let Self { ids, rays, paths, .. } = self;
         let places = &mut paths.values.direction;
         sampler.fill_2d(ids, dimension::FILM, places);
         rays.clear();
-        rays.extend(ids.iter().zip(&*places).map(|(&id, &place)| {
-            camera.generate_ray(id.pixel, place, || sampler.get_2d(id, dimension::LENS))
+        rays.extend(ids.iter().zip(&*places).map(|(&id, &u)| {
+            camera.generate_ray(id.pixel, filter.place(u), || sampler.get_2d(id, dimension::LENS))
         }));
     }
 }

@@ -134,13 +134,16 @@ pub fn render_with(
     let sets = scene.sampler().sets();
     let no_limit = if options.time.is_some() { u32::MAX } else { scene.sampler().spp };
     let mut passes = Passes::new(options.spp.unwrap_or(no_limit) / sets, options.time);
-    let variance = if options.layers { variance(sampler, sets) } else { Variance::None };
-    let contents = FilmContents { sets, first_hits: options.layers, variance };
+    let variance = match options.layers {
+        true => Variance::suiting(sampler.is_correlated(), sets),
+        false => Variance::None,
+    };
+    let contents = FilmContents { variance, first_hits: options.layers };
     let film = Film::new(settings.resolution, settings.window(), contents)?;
     let shared = Mutex::new((film, Counters::default()));
     let mut threads = 0;
     while let Some(indices) = passes.next() {
-        let pass = Pass { scene, integrator, sampler, options, indices, contents };
+        let pass = Pass { scene, integrator, sampler, options, indices, sets, contents };
         threads = threads.max(pass.render(&shared)?);
     }
     let (film, counters) = shared.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -154,15 +157,6 @@ pub fn render_with(
     })
 }
 
-/// What the film can tell its error from.
-fn variance(sampler: &dyn Sampler, sets: u32) -> Variance {
-    match (sets, sampler.is_correlated()) {
-        (1, false) => Variance::OfSamples,
-        (1, true) => Variance::None,
-        _ => Variance::OfSets,
-    }
-}
-
 /// Samples that are taken of all pixels before any more are.
 struct Pass<'a> {
     scene: &'a Scene,
@@ -171,6 +165,7 @@ struct Pass<'a> {
     options: &'a RenderOptions<'a>,
     /// Which samples of each set.
     indices: Range<u32>,
+    sets: u32,
     contents: FilmContents,
 }
 
@@ -206,7 +201,8 @@ impl Pass<'_> {
         shared: &Mutex<(Film, Counters)>,
     ) -> Result<(), RenderError> {
         let Self { scene, integrator, sampler, options, .. } = *self;
-        let mut worker = Worker::new(scene, integrator, sampler, options, self.contents)?;
+        let mut worker =
+            Worker::new(scene, integrator, sampler, options, self.sets, self.contents)?;
         let cancelled = || options.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
         while !cancelled() {
             let Some(tile) = tiles.next() else { break };
@@ -218,7 +214,7 @@ impl Pass<'_> {
             counters.add(&worker.take_counters());
             let done = pixels.fetch_add(tile.area() as u64, Ordering::Relaxed) + tile.area() as u64;
             if let Some(progress) = options.progress {
-                let samples = self.indices.start * self.contents.sets;
+                let samples = self.indices.start * self.sets;
                 let of = scene.film().window().area() as u64;
                 progress(Progress { pixels: done, of, samples, rays: counters.rays() });
             }

@@ -38,6 +38,7 @@ impl<'a> Worker<'a> {
         integrator: &'a dyn Integrator,
         sampler: &'a dyn Sampler,
         options: &RenderOptions,
+        sets: u32,
         contents: FilmContents,
     ) -> Result<Self, FilmError> {
         let film = scene.film();
@@ -50,7 +51,7 @@ impl<'a> Worker<'a> {
             sampler,
             wave: Wave::with_capacity(WAVE, scene.lights().len()),
             tile,
-            sets: contents.sets,
+            sets,
             rho_points: lattice(),
         })
     }

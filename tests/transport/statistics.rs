@@ -14,7 +14,7 @@ pub fn picture(builder: SceneBuilder) -> Picture {
 
 /// Every band of every pixel: mean and variance of that mean.
 pub fn bands(picture: &Picture) -> Vec<(f64, f64)> {
-    let variance = picture.layers.as_ref().and_then(|l| l.variance.as_ref()).expect("no variance");
+    let variance = picture.variance.as_ref().expect("no variance");
     let values = picture.color.iter().zip(variance).flat_map(|(c, v)| {
         c.to_array().into_iter().zip(v.to_array()).map(|(c, v)| (c.into(), v.into()))
     });
