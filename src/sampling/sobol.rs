@@ -17,12 +17,11 @@ use super::{SampleId, Sampler};
 ///
 /// Dimensions d and d + 2, where d mod 4 is 0 or 1, are spread together: 4ᵏ samples, aligned, have one in each box
 /// whose four sides are powers of 1/4 with product 4⁻ᵏ. Each such couple is scrambled and shuffled on its own, as
-/// is each pixel and each set. On smooth integrands of one couple error falls almost with n⁻¹·⁵.
+/// is each pixel and each set. In one dimension, the error of smooth integrands falls almost with n⁻¹·⁵.
 ///
-/// Points of the couple: [Ahmed 2024], "SZ Sequences"; scramble and shuffle by hashing: [Burley 2020], "Practical
+/// Points of the couple: Ahmed 2024, "SZ Sequences"; scramble and shuffle by hashing: [Burley 2020], "Practical
 /// Hash-based Owen Scrambling", sections 3 and 4.
 ///
-/// [Ahmed 2024]: https://doi.org/10.1145/3680528.3687640
 /// [Burley 2020]: https://jcgt.org/published/0009/04/01/
 ///
 /// ```

@@ -56,7 +56,8 @@ fn blocks_are_nets() {
 }
 
 /// 4ᵏ samples of dimensions d and d + 2 have one in each four-dimensional box with sides that are powers of 1/4.
-/// Caught: dimensions coupled with their neighbours instead; w² in place of w for coordinate 2.
+/// Caught: dimensions coupled with their neighbours instead; w² in place of w in the first
+/// step of coordinate 2.
 #[test]
 fn couples_are_nets_in_base_4() {
     let sampler = SobolSampler::new(1);
@@ -83,18 +84,16 @@ fn couples_are_nets_in_base_4() {
     }
 }
 
-/// Each digit is flipped by a coin of its own for each way to the digits above: chi-square of 10 flips, which are
-/// those of digits 1 to 4 behind the point on some ways, and their pairs, over 2¹⁸ pixels.
-/// Caught: a scramble that adds no seed and multiplies by one.
+/// The upper digits of scrambled numbers are uniform over pixels, in each coordinate, in both together, and in two
+/// samples of one set. Caught: the scramble without its seed.
 #[test]
 fn scrambles_are_random() {
     const COUNT: u32 = 1 << 18;
     let sampler = SobolSampler::new(3);
     for dimension in [0, 1, 2] {
-        // Four samples in both coordinates: the eight upper bits of each, as a joint histogram of samples.
         let mut observed = [[0; 256]; 4];
         for pixel in 0..COUNT {
-            let p = [0, 1, 5].map(|i| sampler.get_2d(id(pixel, 0, i), dimension));
+            let p = [0, 1].map(|i| sampler.get_2d(id(pixel, 0, i), dimension));
             observed[0][cell(p[0].x, 8)] += 1;
             observed[1][cell(p[0].y, 8)] += 1;
             observed[2][cell(p[0].x, 4) << 4 | cell(p[0].y, 4)] += 1;
@@ -134,34 +133,34 @@ fn fills_equal_gets() {
 }
 
 /// Estimates of a known integral by n samples in each of many pixels.
-fn estimates(f: impl Fn([Vec2; 2]) -> f64, n: u32) -> impl Iterator<Item = f64> {
+fn estimates(f: impl Fn([Vec2; 3]) -> f64, n: u32) -> impl Iterator<Item = f64> {
     let sampler = SobolSampler::new(11);
     (0..1000).map(move |pixel| {
-        let value = |i| f([0, 2].map(|d| sampler.get_2d(id(pixel, 0, i), d)));
+        let value = |i| f([0, 2, 1].map(|d| sampler.get_2d(id(pixel, 0, i), d)));
         (0..n).map(value).sum::<f64>() / f64::from(n)
     })
 }
 
-/// The means of many estimates are right, and from 16 to 1024 samples error falls by at least this power of n:
-/// smooth in one dimension, a disc in one, a smooth product and a product of discs in two. That of independent
-/// samples is 1/2. Caught: the blocks' places without scramble (bias); x scrambled with the seed of y
-/// and two independent dimensions (slope of the products).
+/// The means of many estimates are right, and from 16 to 1024 samples error falls by at least this power of n. That
+/// of independent samples is 1/2, and it is what to expect where dimensions of two couples meet. Caught: dimensions
+/// coupled with their neighbours; the scramble without its seed; one order for all couples.
 #[test]
 fn error_falls_fast() {
     let wave = |p: Vec2| 1.0 + (TAU * f64::from(p.x)).sin() * f64::from(p.y);
     let disc = |p: Vec2| f64::from(u8::from(p.length_squared() < 0.64));
     let disc_mean = TAU / 8.0 * 0.64;
-    check("wave", |[p, _]| wave(p), 1.0, 1.2);
-    check("disc", |[p, _]| disc(p), disc_mean, 0.65);
-    check("two waves", |[p, q]| wave(p) * wave(q), 1.0, 0.8);
-    check("two discs", |[p, q]| disc(p) * disc(q), disc_mean * disc_mean, 0.58);
+    check("wave", |[p, ..]| wave(p), 1.0, 1.2);
+    check("disc", |[p, ..]| disc(p), disc_mean, 0.65);
+    check("two waves", |[p, q, _]| wave(p) * wave(q), 1.0, 0.8);
+    check("two discs", |[p, q, _]| disc(p) * disc(q), disc_mean * disc_mean, 0.58);
+    check("waves of two couples", |[p, _, q]| wave(p) * wave(q), 1.0, 0.4);
 }
 
-fn check(name: &str, f: impl Fn([Vec2; 2]) -> f64, truth: f64, slope: f64) {
+fn check(name: &str, f: impl Fn([Vec2; 3]) -> f64, truth: f64, slope: f64) {
     let errors = [5, 16, 100, 1024].map(|n| {
         let (mean, error) = mean(estimates(&f, n));
         // 24 bits for each coordinate, rounded down.
-        assert_mean(mean, error.hypot(3e-7), truth, 16, &format!("{name}, {n} samples"));
+        assert_mean(mean, error.hypot(3e-7), truth, 20, &format!("{name}, {n} samples"));
         error
     });
     let found = (errors[1] / errors[3]).ln() / 64_f64.ln();
