@@ -92,26 +92,27 @@ fn a_white_body_is_lost_before_the_sky() {
 #[test]
 fn a_furnace_adds_up_all_reflections() {
     let (e, a) = (0.5, 0.6);
-    for strategy in STRATEGIES {
-        for (max_depth, roulette) in [(0, false), (1, false), (6, false), (6, true), (60, true)] {
-            let emission = Emission { radiance: Spectrum::splat(e as f32), two_sided: true };
-            let picture = picture(
-                Scene::builder()
-                    .camera(CameraSettings {
-                        eye: Vec3::new(0.1, 0.2, -0.3),
-                        ..CameraSettings::default()
-                    })
-                    .resolution(32, 32)
-                    .sampler(sampler(1024))
-                    .integrator(path(max_depth, roulette, strategy))
-                    .material("grey", MatteMaterial::new([a as f32; 3]))
-                    .glowing_shape("furnace", ball(12), "grey", emission),
-            );
-            let reflections = i32::try_from(max_depth).unwrap() + 1;
-            let expected = e * (1.0 - f64::powi(a, reflections)) / (1.0 - a);
-            let what = format!("{strategy:?}, depth {max_depth}, roulette {roulette}");
-            assert_mean(&picture, expected, &what);
-        }
+    let all = STRATEGIES.map(|strategy| (strategy, 6, true));
+    let auto = [(0, false), (1, false), (6, false), (60, true)];
+    let auto = auto.map(|(depth, roulette)| (LightStrategy::Auto, depth, roulette));
+    for (strategy, max_depth, roulette) in all.into_iter().chain(auto) {
+        let emission = Emission { radiance: Spectrum::splat(e as f32), two_sided: true };
+        let picture = picture(
+            Scene::builder()
+                .camera(CameraSettings {
+                    eye: Vec3::new(0.1, 0.2, -0.3),
+                    ..CameraSettings::default()
+                })
+                .resolution(32, 32)
+                .sampler(sampler(1024))
+                .integrator(path(max_depth, roulette, strategy))
+                .material("grey", MatteMaterial::new([a as f32; 3]))
+                .glowing_shape("furnace", ball(12), "grey", emission),
+        );
+        let reflections = i32::try_from(max_depth).unwrap() + 1;
+        let expected = e * (1.0 - f64::powi(a, reflections)) / (1.0 - a);
+        let what = format!("{strategy:?}, depth {max_depth}, roulette {roulette}");
+        assert_mean(&picture, expected, &what);
     }
 }
 

@@ -23,7 +23,7 @@ fn scene() -> SceneBuilder {
     let glow = |l: f32, two_sided| Emission { radiance: Spectrum::new(l, l, 0.5 * l), two_sided };
     ball_over_floor(UVec2::new(24, 24))
         .lamp("lamp", lamp, glow(4.0, true))
-        .glowing_shape("moon", moon, "red", glow(2.0, false))
+        .glowing_shape("moon", moon, "red", glow(20.0, false))
         .light(SkyLight::new(Spectrum::new(0.1, 0.2, 0.3)))
         .light(DistantLight::new(Vec3::new(-0.6, 0.8, 0.0), Spectrum::splat(0.5)).unwrap())
         .light(PointLight::new(Vec3::new(3.0, 3.0, -3.0), Spectrum::splat(8.0)))

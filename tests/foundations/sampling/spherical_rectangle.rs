@@ -34,7 +34,9 @@ impl Case {
         SphericalRectangle::new(self.origin, self.corner, self.edges[0], self.edges[1])
     }
 
-    /// The solid angle of the part with these shares of the edges, as two triangles.
+    /// The solid angle of the part with these shares of the edges: a small one as two triangles, where the
+    /// angles at the corners would cancel; a large one by these, where what stands below the line of the
+    /// triangles' formula would (by 1.3e-5 of 4.8 sr for a strip close to its plane).
     ///
     /// Van Oosterom and Strackee 1983, "The Solid Angle of a Plane Triangle", with what stands above the
     /// line found without a loss of digits.
@@ -47,7 +49,17 @@ impl Case {
             let [lp, lq, lr] = [p, q, r].map(DVec3::length);
             2.0 * volume.atan2(lp * lq * lr + p.dot(q) * lr + q.dot(r) * lp + r.dot(p) * lq)
         };
-        triangle(at(a, c), at(b, c), at(b, d)) + triangle(at(a, c), at(b, d), at(a, d))
+        let two = triangle(at(a, c), at(b, c), at(b, d)) + triangle(at(a, c), at(b, d), at(a, d));
+        if two < 0.1 {
+            return two;
+        }
+        let z = corner.dot(N).abs();
+        let below = |s: f64, t: f64| {
+            let place = at(s, t);
+            let (x, y) = (place.dot(x.normalize()), place.dot(y.normalize()));
+            (x * y).atan2(z * (x * x + y * y + z * z).sqrt())
+        };
+        below(b, d) - below(a, d) - below(b, c) + below(a, c)
     }
 }
 
