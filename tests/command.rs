@@ -155,6 +155,7 @@ fn info_tells_what_is_there() {
 camera       [0, 1, -3] to [0, 0, 1], 90 degrees, lens radius 0.5, in focus at 1
 image        20x10 pixels
 display      srgb
+filter       box
 sampler      independent, 2 samples per pixel, seed 3
 integrator   chapter
 lights       1

@@ -245,11 +245,11 @@ fn unknown_keys() {
         ),
         (
             "[film]\nfilter_radius = 2",
-            "s.toml:2:1: unknown key `filter_radius` in [film]; did you mean `filter`?",
+            "s.toml:2:1: unknown key `filter_radius` in [film]; expected `resolution`, `crop`, `display` or `filter`",
         ),
         (
             "[film]\nfilter = \"tent\"\nfilter_sigma = 2",
-            "s.toml:3:1: unknown key `filter_sigma` in [film]; did you mean `filter_radius`?",
+            "s.toml:3:1: unknown key `filter_sigma` in [film]; expected `resolution`, `crop`, `display`, `filter` or `filter_radius`",
         ),
         (
             "[integrator]\ntype = \"direct\"\nmax_depth = 2",
@@ -257,7 +257,7 @@ fn unknown_keys() {
         ),
         (
             "[shape.s]\ntype = \"rectangle\"\nobj = \"a.obj\"",
-            "s.toml:3:1: unknown key `obj` in [shape.s] of type \"rectangle\"; expected `type`, `material`, `emission`, `two_sided`, `scale`, `rotate`, `translate`, `corner` or `edges`",
+            "s.toml:3:1: unknown key `obj` in [shape.s] of type \"rectangle\"; expected `corner`, `edges`, `material`, `scale`, `rotate`, `translate`, `type` or `emission`",
         ),
         (
             "[light.l]\ntype = \"sky\"\nintensity = 1",

@@ -15,15 +15,16 @@ const SAMPLERS: [SamplerKind; 4] =
 const STRATEGIES: [LightStrategy; 4] =
     [LightStrategy::Auto, LightStrategy::Mis, LightStrategy::Light, LightStrategy::Bsdf];
 
-/// All kinds of lights at once: a point, a distant one, the sky, a rectangle and a glowing ball.
+/// All kinds of lights at once: a point, a distant one, the sky, a rectangle and a glowing ball. None is so small or
+/// so weak that a strategy would find it once in a hundred samples: the means would be far from normal.
 fn scene() -> SceneBuilder {
     let lamp = TriangleMesh::parallelogram(Vec3::new(1.2, 1.5, -1.0), Vec3::X * 2.0, Vec3::Z * 1.5);
     let mut moon = ball(6);
-    moon.positions.iter_mut().for_each(|p| *p = *p * 0.3 + Vec3::new(-1.6, -0.8, -1.2));
+    moon.positions.iter_mut().for_each(|p| *p = *p * 0.6 + Vec3::new(-1.6, -0.8, -1.2));
     let glow = |l: f32, two_sided| Emission { radiance: Spectrum::new(l, l, 0.5 * l), two_sided };
     ball_over_floor(UVec2::new(24, 24))
         .lamp("lamp", lamp, glow(4.0, true))
-        .glowing_shape("moon", moon, "red", glow(20.0, false))
+        .glowing_shape("moon", moon, "red", glow(5.0, false))
         .light(SkyLight::new(Spectrum::new(0.1, 0.2, 0.3)))
         .light(DistantLight::new(Vec3::new(-0.6, 0.8, 0.0), Spectrum::splat(0.5)).unwrap())
         .light(PointLight::new(Vec3::new(3.0, 3.0, -3.0), Spectrum::splat(8.0)))

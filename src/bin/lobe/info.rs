@@ -3,8 +3,10 @@
 use std::error::Error;
 
 use clap::Args;
-use lobe::film::Display;
-use lobe::scene::{IntegratorSettings, LoadedScene, SamplerKind, SamplerSettings, Scene};
+use lobe::film::{Display, Filter};
+use lobe::scene::{
+    IntegratorSettings, LightStrategy, LoadedScene, SamplerKind, SamplerSettings, Scene,
+};
 use lobe::{CameraSettings, TriangleMesh};
 
 use crate::scene::SceneArguments;
@@ -81,20 +83,51 @@ fn add_settings(summary: &mut Summary, scene: &Scene) {
         Display::Exposure => "exposure",
     };
     summary.add("display", display);
-    let SamplerSettings { kind, spp, seed, replicates: _ } = scene.sampler();
+    summary.add("filter", filter(scene.film().filter));
+    let SamplerSettings { kind, spp, seed, .. } = scene.sampler();
     let kind = match kind {
         SamplerKind::Independent => "independent",
         SamplerKind::Stratified => "stratified",
         SamplerKind::Sobol => "sobol",
         SamplerKind::BlueNoise => "blue-noise",
     };
-    summary.add("sampler", format!("{kind}, {spp} samples per pixel, seed {seed}"));
-    let integrator = match scene.integrator() {
-        IntegratorSettings::Chapter { highlight: false } => "chapter",
-        IntegratorSettings::Chapter { highlight: true } => "chapter with highlight",
-        IntegratorSettings::Direct { .. } => "direct",
-        IntegratorSettings::Path { .. } => "path",
+    let sets = match scene.sampler().sets() {
+        1 => String::new(),
+        sets => format!(" in {sets} sets"),
     };
-    summary.add("integrator", integrator);
+    summary.add("sampler", format!("{kind}, {spp} samples per pixel{sets}, seed {seed}"));
+    summary.add("integrator", integrator(scene.integrator()));
     summary.add("lights", scene.lights().len());
+}
+
+fn filter(filter: Filter) -> String {
+    match filter {
+        Filter::Box => "box".into(),
+        Filter::Tent { radius } => format!("tent, radius {radius} pixels"),
+        Filter::Gaussian { radius, sigma } => {
+            format!("gaussian, radius {radius} pixels, sigma {sigma}")
+        }
+        Filter::BlackmanHarris { radius } => format!("blackman-harris, radius {radius} pixels"),
+    }
+}
+
+fn integrator(settings: &IntegratorSettings) -> String {
+    match *settings {
+        IntegratorSettings::Chapter { highlight: false } => "chapter".into(),
+        IntegratorSettings::Chapter { highlight: true } => "chapter with highlight".into(),
+        IntegratorSettings::Direct { strategy } => format!("direct, {}", name(strategy)),
+        IntegratorSettings::Path { max_depth, roulette, strategy } => {
+            let roulette = if roulette { "roulette" } else { "no roulette" };
+            format!("path, up to {max_depth} reflections, {roulette}, {}", name(strategy))
+        }
+    }
+}
+
+fn name(strategy: LightStrategy) -> &'static str {
+    match strategy {
+        LightStrategy::Auto => "strategy auto",
+        LightStrategy::Mis => "strategy mis",
+        LightStrategy::Light => "strategy light",
+        LightStrategy::Bsdf => "strategy bsdf",
+    }
 }

@@ -112,6 +112,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         let rays = rendered.counters.rays();
         summary.add("rays", rays);
         summary.add("speed", format!("{:.2} Mrays/s", rays as f64 / rendered.seconds / 1e6));
+        if let Some(error) = rendered.picture.standard_error() {
+            summary.add("error", format!("{error:.2e} standard error of a pixel, in radiance"));
+        }
         summary.add("non-finite", format!("{} samples", rendered.non_finite));
         if rendered.counters.rejected > 0 {
             summary.add("rejected", format!("{} lobe values", rendered.counters.rejected));

@@ -224,24 +224,25 @@ fn light(section: &Section) -> Result<LightDescription, Fault> {
 }
 
 fn shape(section: &Section, document: &Document) -> Result<ShapeDescription, Fault> {
-    const COMMON: [&str; 7] =
-        ["type", "material", "emission", "two_sided", "scale", "rotate", "translate"];
-    let is_rectangle = section.choice("type", &[("obj", false), ("rectangle", true)])?;
-    let source = if is_rectangle.unwrap_or(false) {
-        section.only(&[&COMMON[..], &["corner", "edges"]].concat())?;
-        let corner = section.require("corner")?;
-        ShapeSource::Rectangle { corner, edges: section.require("edges")? }
-    } else {
-        section.only(&[&["obj"], &COMMON[..]].concat())?;
-        let obj: String = section.require("obj")?;
-        ShapeSource::Obj(document.resolve(section.mark("obj"), &obj))
-    };
+    let kind = section.choice("type", &[("obj", false), ("rectangle", true)])?;
+    let is_rectangle = kind.unwrap_or(false);
     let radiance: Option<Light> = section.get("emission")?;
-    let two_sided = section.get_or("two_sided", false)?;
-    let emission = radiance.map(|Light(rgb)| Emission { radiance: rgb.into(), two_sided });
+    let own: &[&str] = if is_rectangle { &["corner", "edges"] } else { &["obj"] };
+    let of_light: &[&str] = if radiance.is_some() { &["two_sided"] } else { &[] };
+    let common = ["material", "scale", "rotate", "translate", "type", "emission"];
+    section.only(&[own, &common, of_light].concat())?;
     let Scale(scale) = section.get_or("scale", Scale(Vec3::ONE))?;
     let Rotation(rotation) = section.get_or("rotate", Rotation(Quat::IDENTITY))?;
     let translation = section.get_or("translate", Vec3::ZERO)?;
+    let two_sided = section.get_or("two_sided", false)?;
+    let source = if is_rectangle {
+        let corner = section.require("corner")?;
+        ShapeSource::Rectangle { corner, edges: section.require("edges")? }
+    } else {
+        let obj: String = section.require("obj")?;
+        ShapeSource::Obj(document.resolve(section.mark("obj"), &obj))
+    };
+    let emission = radiance.map(|Light(rgb)| Emission { radiance: rgb.into(), two_sided });
     let material = match emission {
         Some(_) => section.get("material")?,
         None => Some(section.require("material")?),

@@ -50,7 +50,7 @@ impl Case {
             2.0 * volume.atan2(lp * lq * lr + p.dot(q) * lr + q.dot(r) * lp + r.dot(p) * lq)
         };
         let two = triangle(at(a, c), at(b, c), at(b, d)) + triangle(at(a, c), at(b, d), at(a, d));
-        if two < 0.1 {
+        if two < 1e-6 {
             return two;
         }
         let z = corner.dot(N).abs();
