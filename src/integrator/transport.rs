@@ -33,6 +33,8 @@ pub struct Transport {
     has_places: bool,
     /// By light: how likely a hit samples it; 0 for one that is only found by rays.
     probability: Vec<f32>,
+    /// By light: whether rays can meet it.
+    visible: Vec<bool>,
     /// Lights that rays find which leave the scene.
     infinite: Vec<usize>,
     /// Whether there are lights that rays can meet on surfaces.
@@ -74,15 +76,14 @@ impl Transport {
             let power = light.power(&sphere).to_array().iter().sum::<f32>();
             f64::from(power)
         };
-        let wanted = |light: &dyn Light| {
-            let drawn = match strategy {
-                LightStrategy::Auto => light.is_worth_sampling(),
-                LightStrategy::Mis | LightStrategy::Light => true,
-                LightStrategy::Bsdf => false,
-            };
-            light.is_delta() || drawn
+        let mut visible: Vec<bool> = lights.iter().map(|light| light.is_infinite()).collect();
+        scene.lights_on_surfaces().for_each(|i| visible[i] = true);
+        let wanted = |i: &usize| match strategy {
+            LightStrategy::Auto => !visible[*i] || lights[*i].is_worth_sampling(),
+            LightStrategy::Mis | LightStrategy::Light => true,
+            LightStrategy::Bsdf => !visible[*i],
         };
-        let sampled: Vec<usize> = (0..lights.len()).filter(|&i| wanted(&*lights[i])).collect();
+        let sampled: Vec<usize> = (0..lights.len()).filter(wanted).collect();
         let mut probability = vec![0.0; lights.len()];
         let draw = if choice == LightChoice::All || sampled.len() < 2 {
             sampled.iter().for_each(|&i| probability[i] = 1.0);
@@ -104,7 +105,8 @@ impl Transport {
             has_places: draw.lights().iter().any(has_extent),
             draw,
             probability,
-            on_surfaces: (0..lights.len()).filter(has_extent).count() > infinite.len(),
+            visible,
+            on_surfaces: scene.lights_on_surfaces().next().is_some(),
             infinite,
             finds: strategy != LightStrategy::Light,
         }
@@ -282,7 +284,7 @@ impl Transport {
         let light = &*scene.lights()[number];
         let Some(LightSample { li, wi, pdf, from }) = light.sample_li(si.p(), u) else { return };
         let pdf = pdf * self.probability[number];
-        let (f, weight) = if self.finds && !light.is_delta() {
+        let (f, weight) = if self.finds && self.visible[number] {
             let (f, scattering_pdf) = bsdf.f_and_pdf(si.wo(), wi, BxdfFlags::all());
             (f, power_heuristic(pdf, scattering_pdf))
         } else {

@@ -55,9 +55,9 @@ pub struct BoundingSphere {
 
 /// A source of light (PBRT 3rd edition, section 12.2).
 ///
-/// A light without extent, a delta light, only has [`sample_li`](Light::sample_li) and its power. One with
-/// an extent can also be hit by rays, and tells what they see and how likely its own samples are to go the
-/// same way, so that both can be weighed against each other.
+/// A light without extent, a delta light, only has [`sample_li`](Light::sample_li) and its power. One that
+/// surrounds the scene, or is a shape's surface, can also be met by rays, and tells what they see and how likely its
+/// own samples are to go the same way, so that both can be weighed against each other.
 pub trait Light: Send + Sync {
     /// Whether the light has no extent, so that it takes no sample and no ray can hit it.
     fn is_delta(&self) -> bool;

@@ -143,6 +143,11 @@ impl Scene {
         self.shapes[hit.shape as usize].light
     }
 
+    /// The numbers of the lights that surfaces are.
+    pub fn lights_on_surfaces(&self) -> impl Iterator<Item = usize> {
+        self.shapes.iter().filter_map(|shape| shape.light)
+    }
+
     /// How long the tree took to build, in seconds.
     pub fn build_seconds(&self) -> f64 {
         self.build_seconds
