@@ -1,6 +1,7 @@
 //! [`Wave`]: the samples that go through an integrator together.
 
-use super::paths::Paths;
+use super::paths::{Path, Paths};
+use super::plain::push_x4;
 use crate::Spectrum;
 use crate::accel::Hit;
 use crate::bxdf::Arena;
@@ -138,15 +139,18 @@ impl Wave {
 #[derive(Default)]
 pub struct ShadowRays {
     rays: Vec<Ray>,
-    carried: Vec<(usize, Spectrum)>,
+    samples: Vec<u32>,
+    carried: Vec<Spectrum>,
     occluded: Vec<bool>,
 }
 
 impl ShadowRays {
     fn with_capacity(rays: usize) -> Self {
         Self {
-            rays: Vec::with_capacity(rays),
-            carried: Vec::with_capacity(rays),
+            // Four at a time are added, some of them for a moment.
+            rays: Vec::with_capacity(rays + 4),
+            samples: Vec::with_capacity(rays + 4),
+            carried: Vec::with_capacity(rays + 4),
             occluded: Vec::with_capacity(rays),
         }
     }
@@ -155,7 +159,22 @@ impl ShadowRays {
     #[inline]
     pub fn push(&mut self, sample: usize, ray: Ray, radiance: Spectrum) {
         self.rays.push(ray);
-        self.carried.push((sample, radiance));
+        self.samples.push(sample as u32);
+        self.carried.push(radiance);
+    }
+
+    /// Adds those rays of four paths whose bits in the mask are set.
+    #[inline(always)]
+    pub(super) fn push_x4(
+        &mut self,
+        mask: u32,
+        paths: [&Path; 4],
+        rays: &[Ray; 4],
+        radiance: &[Spectrum; 4],
+    ) {
+        push_x4(&mut self.rays, mask, rays);
+        push_x4(&mut self.samples, mask, &paths.map(|path| path.sample));
+        push_x4(&mut self.carried, mask, radiance);
     }
 
     /// Traces all rays, adds what gets through to `radiance`, and returns how many they were.
@@ -163,13 +182,14 @@ impl ShadowRays {
         self.occluded.clear();
         self.occluded.resize(self.rays.len(), false);
         scene.accel().occluded(&self.rays, &mut self.occluded);
-        for (&(sample, carried), &occluded) in self.carried.iter().zip(&self.occluded) {
-            if !occluded {
-                radiance[sample] += carried;
-            }
+        for ((&sample, &carried), &occluded) in
+            self.samples.iter().zip(&self.carried).zip(&self.occluded)
+        {
+            radiance[sample as usize] += if occluded { Spectrum::BLACK } else { carried };
         }
         let count = self.rays.len() as u64;
         self.rays.clear();
+        self.samples.clear();
         self.carried.clear();
         count
     }

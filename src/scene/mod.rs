@@ -12,11 +12,14 @@ pub use settings::{
     Emission, FilmSettings, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings,
 };
 
+use glam::Vec3;
+
 use crate::accel::{Accel, Hit};
+use crate::bxdf::LambertianReflection;
 use crate::camera::{Camera, CameraSettings};
 use crate::geometry::Ray;
 use crate::interaction::SurfaceInteraction;
-use crate::light::{BoundingSphere, Light};
+use crate::light::{BoundingSphere, Light, PointLight};
 use crate::material::Material;
 use crate::shape::TriangleMesh;
 
@@ -53,6 +56,8 @@ pub struct Scene {
     shapes: Vec<Shape>,
     meshes: Vec<TriangleMesh>,
     lights: Vec<Arc<dyn Light>>,
+    /// By light: those that are points. It may be shorter.
+    points: Vec<Option<PointLight>>,
     accel: Accel,
     build_seconds: f64,
 }
@@ -63,6 +68,8 @@ struct Shape {
     material: Arc<dyn Material>,
     /// The number of the light that it is.
     light: Option<usize>,
+    /// What it reflects, if that takes no more than its plane and this to know.
+    plain: Option<LambertianReflection>,
 }
 
 impl Scene {
@@ -134,6 +141,27 @@ impl Scene {
     #[inline]
     pub fn light_at(&self, hit: &Hit) -> Option<usize> {
         self.shapes[hit.shape as usize].light
+    }
+
+    /// The point light with this number, if it is one.
+    pub(crate) fn point_light(&self, number: usize) -> Option<PointLight> {
+        self.points.get(number).copied().flatten()
+    }
+
+    /// The only lobe that the surface has at a hit, where it has a constant one on flat triangles. A miss
+    /// has none.
+    #[inline]
+    pub(crate) fn plain(&self, hit: &Hit) -> Option<&LambertianReflection> {
+        self.shapes.get(hit.shape as usize)?.plain.as_ref()
+    }
+
+    /// The corners of the triangle that was hit.
+    ///
+    /// # Panics
+    /// Like [`Scene::interaction`].
+    #[inline]
+    pub(crate) fn corners(&self, hit: &Hit) -> [Vec3; 3] {
+        self.meshes[hit.shape as usize].corners(hit.triangle as usize)
     }
 
     /// How long the tree took to build, in seconds.

@@ -1,0 +1,187 @@
+//! [`Scatter`]: light samples and new directions at the hits of a wave.
+
+use glam::Vec2;
+
+use super::paths::{Path, Paths, Values, Vertex};
+use super::plain::{PlainHits, push_x4};
+use super::plain_lights::LightSamples;
+use super::transport::{Draw, Transport, power_heuristic};
+use super::wave::{ShadowRays, Wave, dimension};
+use crate::Spectrum;
+use crate::accel::Hit;
+use crate::bxdf::{Arena, BxdfFlags, TransportMode};
+use crate::geometry::Ray;
+use crate::geometry::four;
+use crate::light::LightSample;
+use crate::sampling::Sampler;
+use crate::scene::Scene;
+
+/// One such stage.
+pub struct Scatter<'a> {
+    transport: &'a Transport,
+    scene: &'a Scene,
+    sampler: &'a dyn Sampler,
+    values: &'a Values,
+    depth: u32,
+    shadow: &'a mut ShadowRays,
+    next_states: &'a mut Vec<Path>,
+    next_rays: &'a mut Vec<Ray>,
+    rejected: u64,
+}
+
+impl Transport {
+    /// Samples lights and new directions at the hits: shadow rays and the next rays.
+    #[inline(never)]
+    pub(super) fn scatter(
+        &self,
+        scene: &Scene,
+        sampler: &dyn Sampler,
+        wave: &mut Wave,
+        depth: u32,
+    ) {
+        let Wave { paths, shadow, arena, counters, .. } = wave;
+        let Paths { states, rays, hits, active, values, next_states, next_rays } = paths;
+        let mut scatter = Scatter {
+            transport: self,
+            scene,
+            sampler,
+            values,
+            depth,
+            shadow,
+            next_states,
+            next_rays,
+            rejected: 0,
+        };
+        let (fours, rest) = active.as_chunks::<4>();
+        for (four, places) in fours.iter().enumerate() {
+            let places = places.map(|place| place as usize);
+            let (paths, rays, hits) =
+                (places.map(|i| &states[i]), places.map(|i| &rays[i]), places.map(|i| &hits[i]));
+            if let Some(plain) = PlainHits::new(scene, paths, rays, hits) {
+                scatter.four(4 * four, &plain);
+            } else {
+                for i in 0..4 {
+                    scatter.one(4 * four + i, paths[i], rays[i], hits[i], arena);
+                }
+            }
+        }
+        for (turn, &place) in (4 * fours.len()..).zip(rest) {
+            let place = place as usize;
+            scatter.one(turn, &states[place], &rays[place], &hits[place], arena);
+        }
+        counters.rejected += scatter.rejected;
+        arena.reset();
+    }
+}
+
+impl Scatter<'_> {
+    /// A hit of any kind.
+    #[inline(never)]
+    fn one(&mut self, turn: usize, path: &Path, ray: &Ray, hit: &Hit, arena: &Arena) {
+        let Self { transport, scene, values, depth, .. } = *self;
+        let mut si = scene.interaction(ray, hit);
+        let material = scene.material(hit);
+        let bsdf = material.compute_scattering(&mut si, arena, TransportMode::Radiance, true);
+        let vertex = Vertex { path, si: &si, bsdf: &bsdf };
+        for slot in 0..transport.slots() {
+            let (number, u) = self.drawn(slot, turn);
+            self.sample_light(&vertex, number, u);
+        }
+        if transport.goes_on(depth)
+            && let Some((mut step, wi)) = vertex.step(values.direction[turn])
+            && (!transport.throws(depth) || step.survives(values.roulette[turn]))
+        {
+            if transport.walks_on(depth) {
+                self.next_states.push(step);
+                self.next_rays.push(si.spawn_ray(wi));
+            } else {
+                // All that is left to be found surrounds the scene: whether anything stands before it
+                // is a question for a shadow ray.
+                let found = transport.escaped(scene, wi, &step);
+                if !found.is_black() {
+                    self.shadow.push(step.sample as usize, si.spawn_ray(wi), found);
+                }
+            }
+        }
+        self.rejected += u64::from(bsdf.rejected());
+    }
+
+    /// Which light is asked in one of the hit's slots, and the place on it.
+    #[inline]
+    fn drawn(&self, slot: usize, turn: usize) -> (usize, Vec2) {
+        let Self { transport, values, sampler, .. } = self;
+        let u = if !transport.has_places {
+            Vec2::ZERO
+        } else if slot == 0 {
+            values.light[turn]
+        } else {
+            sampler.get_2d(values.ids[turn], dimension::MORE_LIGHTS + slot as u32 - 1)
+        };
+        let number = match &transport.draw {
+            Draw::Each(lights) => lights[slot],
+            Draw::One(lights, by_power) => lights[by_power.sample(values.choice[turn]).0],
+        };
+        (number, u)
+    }
+
+    /// Sends a shadow ray from a hit to a light, weighed against finding the light by reflection.
+    #[inline]
+    fn sample_light(&mut self, vertex: &Vertex, number: usize, u: Vec2) {
+        let Vertex { path, si, bsdf } = vertex;
+        let light = &*self.scene.lights()[number];
+        let Some(LightSample { li, wi, pdf, from }) = light.sample_li(si.p(), u) else { return };
+        let pdf = pdf * self.transport.probability[number];
+        let (f, weight) = if self.transport.finds && !light.is_delta() {
+            let (f, scattering_pdf) = bsdf.f_and_pdf(si.wo(), wi, BxdfFlags::all());
+            (f, power_heuristic(pdf, scattering_pdf))
+        } else {
+            (bsdf.f(si.wo(), wi, BxdfFlags::all()), 1.0)
+        };
+        // Light that will not be reflected need not be asked for.
+        if f.is_black() {
+            return;
+        }
+        let cos_theta = wi.dot(si.shading_n()).abs();
+        let carried = path.beta * f * li * (cos_theta * weight / pdf);
+        let ray = from.map_or_else(|| si.spawn_ray(wi), |from| si.spawn_ray_to(from));
+        self.shadow.push(path.sample as usize, ray, carried);
+    }
+
+    /// Four plain hits.
+    #[inline(always)]
+    fn four(&mut self, turn: usize, hits: &PlainHits) {
+        let Self { transport, scene, values, depth, .. } = *self;
+        for slot in 0..transport.slots() {
+            let drawn = std::array::from_fn(|i| self.drawn(slot, turn + i));
+            let lights = LightSamples::new(transport, scene, hits.at.p, drawn);
+            let (mask, rays, carried) = lights.reflected(hits);
+            self.shadow.push_x4(mask, hits.paths, &rays, &carried);
+        }
+        if !transport.goes_on(depth) {
+            return;
+        }
+        let u = std::array::from_fn(|i| values.direction[turn + i]);
+        let (mut mask, mut paths, wi) = hits.step(u);
+        if transport.throws(depth) {
+            for (i, path) in paths.iter_mut().enumerate() {
+                mask &= !(u32::from(!path.survives(values.roulette[turn + i])) << i);
+            }
+        }
+        let rays = four::rays(hits.at.ray_origins(hits.n, wi), wi, [f32::INFINITY; 4].into());
+        if transport.walks_on(depth) {
+            push_x4(self.next_states, mask, &paths);
+            push_x4(self.next_rays, mask, &rays);
+            return;
+        }
+        let found: [Spectrum; 4] = std::array::from_fn(|i| {
+            if mask >> i & 1 == 0 {
+                return Spectrum::BLACK;
+            }
+            transport.escaped(scene, rays[i].d, &paths[i])
+        });
+        for (i, found) in found.iter().enumerate() {
+            mask &= !(u32::from(found.is_black()) << i);
+        }
+        self.shadow.push_x4(mask, hits.paths, &rays, &found);
+    }
+}
