@@ -111,15 +111,25 @@ impl Film {
 
     /// Adds a sample of the radiance at `pixel`, which lies in the window.
     #[inline]
-    pub fn add_sample(&mut self, pixel: UVec2, _set: u32, radiance: Spectrum) {
-        if !radiance.is_finite() {
-            self.non_finite += 1;
-            return;
-        }
+    pub fn add_sample(&mut self, pixel: UVec2, set: u32, radiance: Spectrum) {
+        self.add_samples(pixel, set, &[radiance]);
+    }
+
+    /// Adds samples of one pixel, in their order.
+    #[inline]
+    pub fn add_samples(&mut self, pixel: UVec2, _set: u32, radiance: &[Spectrum]) {
         let place = self.place(pixel);
-        let pixel = &mut self.pixels[place];
-        add(&mut pixel.sum, radiance.to_array());
-        pixel.samples += 1;
+        // A copy, which stays in registers.
+        let mut sums = self.pixels[place];
+        for radiance in radiance {
+            if radiance.is_finite() {
+                add(&mut sums.sum, radiance.to_array());
+                sums.samples += 1;
+            } else {
+                self.non_finite += 1;
+            }
+        }
+        self.pixels[place] = sums;
     }
 
     /// Adds what a sample of `pixel` met first, if all of it is finite, and counts it otherwise. Nothing

@@ -22,9 +22,9 @@ impl Vec3x4 {
         Self { x: Vec4::splat(v.x), y: Vec4::splat(v.y), z: Vec4::splat(v.z) }
     }
 
-    /// Four vectors.
+    /// Four vectors, read from where they are.
     #[inline(always)]
-    pub fn new([a, b, c, d]: [Vec3; 4]) -> Self {
+    pub fn new([a, b, c, d]: [&Vec3; 4]) -> Self {
         Self {
             x: Vec4::new(a.x, b.x, c.x, d.x),
             y: Vec4::new(a.y, b.y, c.y, d.y),

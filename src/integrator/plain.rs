@@ -40,12 +40,13 @@ impl<'a> PlainHits<'a> {
         let [Some(a), Some(b), Some(c), Some(d)] = lobes else { return None };
         // A Lambertian lobe looks at no directions.
         let f = [a, b, c, d].map(|lobe| lobe.f(glam::Vec3::Z, glam::Vec3::Z));
-        let [a, b, c, d] = hits.map(|hit| scene.corners(hit));
-        let corners = std::array::from_fn(|i| Vec3x4::new([a[i], b[i], c[i], d[i]]));
-        let [a, b, c, d] = hits.map(|hit| hit.b);
-        let weights = std::array::from_fn(|i| Vec4::new(a[i], b[i], c[i], d[i]));
+        let [a, b, c, d] = hits;
+        let weights = [0, 1, 2].map(|i| Vec4::new(a.b[i], b.b[i], c.b[i], d.b[i]));
+        let (a, b) = (scene.corners(a), scene.corners(b));
+        let (c, d) = (scene.corners(c), scene.corners(d));
+        let corners = [0, 1, 2].map(|i| Vec3x4::new([a[i], b[i], c[i], d[i]]));
         let n = triangle_normals(corners)?;
-        let wo = -Vec3x4::new(rays.map(|ray| ray.d));
+        let wo = -Vec3x4::new(rays.map(|ray| &ray.d));
         let at = BoundedPointx4::on_triangles(corners, weights);
         Some(Self { paths, at, n, f, wo_n: wo.dot(n) })
     }
@@ -97,29 +98,12 @@ impl<'a> PlainHits<'a> {
 }
 
 /// Adds the values whose bits in the mask are set.
+///
+/// All are written, and the next one over those that do not count: a branch would be hard to foresee.
 #[inline(always)]
 pub fn push_x4<T: Copy>(to: &mut Vec<T>, mask: u32, values: &[T; 4]) {
-    /// By mask: the places of its bits, and others behind them. Without a branch, as masks are hard to
-    /// foresee.
-    const ORDER: [[u8; 4]; 16] = order();
-    let room = to.len() + mask.count_ones() as usize;
-    to.extend(ORDER[mask as usize & 15].map(|i| values[i as usize & 3]));
-    to.truncate(room);
-}
-
-const fn order() -> [[u8; 4]; 16] {
-    let mut order = [[0; 4]; 16];
-    let mut mask = 0;
-    while mask < 16 {
-        let (mut place, mut bit) = (0, 0);
-        while bit < 4 {
-            if mask >> bit & 1 == 1 {
-                order[mask][place] = bit;
-                place += 1;
-            }
-            bit += 1;
-        }
-        mask += 1;
+    for (i, &value) in values.iter().enumerate() {
+        to.push(value);
+        to.truncate(to.len() - (!mask >> i & 1) as usize);
     }
-    order
 }

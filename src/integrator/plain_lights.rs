@@ -64,13 +64,14 @@ impl LightSamples {
         let none = LightSample { li: Spectrum::BLACK, wi: glam::Vec3::Z, pdf: 1.0, from: None };
         let exists = BVec4A::from_array(samples.map(|sample| sample.is_some()));
         let samples = samples.map(|sample| sample.unwrap_or(none));
+        let from = samples.map(|sample| sample.from.unwrap_or_default());
         let probability = drawn.map(|(number, _)| transport.probability[number]);
         Self {
             exists,
             li: samples.map(|sample| sample.li),
-            wi: Vec3x4::new(samples.map(|sample| sample.wi)),
+            wi: Vec3x4::new(samples.each_ref().map(|sample| &sample.wi)),
             pdf: Vec4::from_array(samples.map(|sample| sample.pdf)) * Vec4::from_array(probability),
-            from: Vec3x4::new(samples.map(|sample| sample.from.unwrap_or_default())),
+            from: Vec3x4::new(from.each_ref()),
             is_near: BVec4A::from_array(samples.map(|sample| sample.from.is_some())),
             weighed: BVec4A::from_array(
                 drawn.map(|(number, _)| transport.finds && !scene.lights()[number].is_delta()),

@@ -39,8 +39,10 @@ impl Transport {
         wave: &mut Wave,
         depth: u32,
     ) {
-        let Wave { paths, shadow, arena, counters, .. } = wave;
-        let Paths { states, rays, hits, active, values, next_states, next_rays } = paths;
+        let Wave { rays, hits, paths, shadow, arena, counters, .. } = wave;
+        let Paths { first, states, met, values, next_states, next_rays, .. } = paths;
+        let states = if depth == 0 { first } else { states };
+        let (rays, hits) = if depth == 0 { (&*rays, &*hits) } else { (&paths.rays, &paths.hits) };
         let mut scatter = Scatter {
             transport: self,
             scene,
@@ -52,7 +54,7 @@ impl Transport {
             next_rays,
             rejected: 0,
         };
-        let (fours, rest) = active.as_chunks::<4>();
+        let (fours, _) = met.active[..met.plain].as_chunks::<4>();
         for (four, places) in fours.iter().enumerate() {
             let places = places.map(|place| place as usize);
             let (paths, rays, hits) =
@@ -65,7 +67,7 @@ impl Transport {
                 }
             }
         }
-        for (turn, &place) in (4 * fours.len()..).zip(rest) {
+        for (turn, &place) in met.active.iter().enumerate().skip(4 * fours.len()) {
             let place = place as usize;
             scatter.one(turn, &states[place], &rays[place], &hits[place], arena);
         }
@@ -97,7 +99,7 @@ impl Scatter<'_> {
             } else {
                 // All that is left to be found surrounds the scene: whether anything stands before it
                 // is a question for a shadow ray.
-                let found = transport.escaped(scene, wi, &step);
+                let found = transport.escaped(scene, step.p, wi, &step);
                 if !found.is_black() {
                     self.shadow.push(step.sample as usize, si.spawn_ray(wi), found);
                 }
@@ -177,7 +179,7 @@ impl Scatter<'_> {
             if mask >> i & 1 == 0 {
                 return Spectrum::BLACK;
             }
-            transport.escaped(scene, rays[i].d, &paths[i])
+            transport.escaped(scene, paths[i].p, rays[i].d, &paths[i])
         });
         for (i, found) in found.iter().enumerate() {
             mask &= !(u32::from(found.is_black()) << i);

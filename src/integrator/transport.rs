@@ -112,13 +112,15 @@ impl Transport {
 
     /// Adds what arrives along each ray of the wave.
     pub fn shade(&self, scene: &Scene, sampler: &dyn Sampler, wave: &mut Wave) {
-        wave.paths.start(&wave.rays, &wave.hits);
+        wave.paths.start(wave.rays.len());
         for depth in 0..=self.max_depth {
-            self.meet(scene, &mut wave.paths, &mut wave.radiance);
-            if depth == self.max_depth || wave.paths.active.is_empty() {
+            self.meet(scene, wave, depth);
+            if depth == self.max_depth || wave.paths.met.active.is_empty() {
                 break;
             }
-            self.draw_samples(sampler, &wave.ids, &mut wave.paths, depth);
+            if self.has_places || self.goes_on(depth) {
+                self.draw_samples(sampler, &wave.ids, &mut wave.paths, depth);
+            }
             self.scatter(scene, sampler, wave, depth);
             wave.counters.shadow_rays += wave.shadow.trace(scene, &mut wave.radiance);
             wave.counters.scattered_rays += wave.paths.trace(scene);
@@ -154,31 +156,39 @@ impl Transport {
         }
     }
 
-    /// Adds the light that rays met, and notes which paths have a surface to go on from.
+    /// Sorts paths by what their rays met, and adds the light that they met.
     #[inline(never)]
-    fn meet(&self, scene: &Scene, paths: &mut Paths, radiance: &mut [Spectrum]) {
-        let Paths { states, rays, hits, active, .. } = paths;
-        active.clear();
-        for (place, ((path, ray), hit)) in states.iter().zip(&*rays).zip(&*hits).enumerate() {
-            if !hit.is_hit() {
-                radiance[path.sample as usize] += self.escaped(scene, ray.d, path);
-                continue;
+    fn meet(&self, scene: &Scene, wave: &mut Wave, depth: u32) {
+        let Wave { rays, hits, radiance, paths, .. } = wave;
+        let Paths { first, states, met, .. } = paths;
+        let states = if depth == 0 { first } else { states };
+        let (rays, hits) = if depth == 0 { (&*rays, &*hits) } else { (&paths.rays, &paths.hits) };
+        met.sort(scene, hits);
+        if !self.infinite.is_empty() {
+            for place in met.escaped.iter().map(|&place| place as usize) {
+                let (path, ray) = (&states[place], &rays[place]);
+                let origin = if depth == 0 { ray.o } else { path.p };
+                radiance[path.sample as usize] += self.escaped(scene, origin, ray.d, path);
             }
-            active.push(place as u32);
-            if self.on_surfaces
-                && let Some(number) = scene.light_at(hit)
-            {
+        }
+        if !self.on_surfaces {
+            return;
+        }
+        for place in met.active.iter().map(|&place| place as usize) {
+            let (path, ray, hit) = (&states[place], &rays[place], &hits[place]);
+            if let Some(number) = scene.light_at(hit) {
                 let n = scene.interaction(ray, hit).n();
-                let at = LightHit { origin: path.p, wi: ray.d, distance: hit.t, n };
+                let origin = if depth == 0 { ray.o } else { path.p };
+                let at = LightHit { origin, wi: ray.d, distance: hit.t, n };
                 radiance[path.sample as usize] += self.found(scene, number, &at, path);
             }
         }
     }
 
-    /// What a path brings home that leaves the scene along `wi`.
+    /// What a path brings home that leaves the scene from `origin` along `wi`.
     #[inline]
-    pub(super) fn escaped(&self, scene: &Scene, wi: Vec3, path: &Path) -> Spectrum {
-        let at = LightHit { origin: path.p, wi, distance: f32::INFINITY, n: Vec3::ZERO };
+    pub(super) fn escaped(&self, scene: &Scene, origin: Vec3, wi: Vec3, path: &Path) -> Spectrum {
+        let at = LightHit { origin, wi, distance: f32::INFINITY, n: Vec3::ZERO };
         self.infinite.iter().map(|&number| self.found(scene, number, &at, path)).sum()
     }
 
@@ -201,9 +211,16 @@ impl Transport {
     /// Sample values for the paths that go on.
     #[inline(never)]
     fn draw_samples(&self, sampler: &dyn Sampler, ids: &[SampleId], paths: &mut Paths, depth: u32) {
-        let Paths { states, active, values, .. } = paths;
+        let Paths { first, states, met, values, .. } = paths;
+        let states = if depth == 0 { first } else { states };
+        let chooses = matches!(self.draw, Draw::One(..));
+        if !(self.goes_on(depth) || self.has_places || chooses) {
+            return;
+        }
         values.ids.clear();
-        values.ids.extend(active.iter().map(|&place| ids[states[place as usize].sample as usize]));
+        values
+            .ids
+            .extend(met.active.iter().map(|&place| ids[states[place as usize].sample as usize]));
         let first = dimension::of_depth(depth);
         if self.goes_on(depth) {
             sampler.fill_2d(&values.ids, first + dimension::DIRECTION, &mut values.direction);
@@ -211,7 +228,7 @@ impl Transport {
         if self.has_places {
             sampler.fill_2d(&values.ids, first + dimension::LIGHT, &mut values.light);
         }
-        if let Draw::One(..) = self.draw {
+        if chooses {
             sampler.fill_1d(&values.ids, first + dimension::CHOICE, &mut values.choice);
         }
         if self.throws(depth) {

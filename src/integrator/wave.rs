@@ -103,18 +103,11 @@ impl Wave {
         }
     }
 
-    /// Starts anew with the camera rays of these samples, and finds what they hit.
-    pub fn begin(
-        &mut self,
-        scene: &Scene,
-        sampler: &dyn Sampler,
-        ids: impl Iterator<Item = SampleId>,
-    ) {
-        self.ids.clear();
-        self.ids.extend(ids);
+    /// Starts anew with the camera rays of the samples in `ids`, and finds what they hit.
+    pub fn begin(&mut self, scene: &Scene, sampler: &dyn Sampler) {
         self.generate_rays(scene.camera(), sampler);
         self.counters.camera_rays += self.rays.len() as u64;
-        self.hits.clear();
+        // What is left of other rays is overwritten.
         self.hits.resize(self.rays.len(), Hit::MISS);
         scene.accel().intersect(&self.rays, &mut self.hits);
         self.radiance.clear();
@@ -129,9 +122,18 @@ impl Wave {
         let places = &mut paths.values.direction;
         sampler.fill_2d(ids, dimension::FILM, places);
         rays.clear();
-        rays.extend(ids.iter().zip(&*places).map(|(&id, &place)| {
-            camera.generate_ray(id.pixel, place, || sampler.get_2d(id, dimension::LENS))
-        }));
+        if camera.has_lens() {
+            rays.extend(ids.iter().zip(&*places).map(|(&id, &place)| {
+                camera.generate_ray(id.pixel, place, || sampler.get_2d(id, dimension::LENS))
+            }));
+            return;
+        }
+        let mut places = &places[..];
+        for of_set in SampleId::sets(ids) {
+            let (of_pixel, rest) = places.split_at(of_set.len());
+            camera.generate_pinhole_rays(of_set[0].pixel, of_pixel, rays);
+            places = rest;
+        }
     }
 }
 
@@ -147,10 +149,10 @@ pub struct ShadowRays {
 impl ShadowRays {
     fn with_capacity(rays: usize) -> Self {
         Self {
-            // Four at a time are added, some of them for a moment.
-            rays: Vec::with_capacity(rays + 4),
-            samples: Vec::with_capacity(rays + 4),
-            carried: Vec::with_capacity(rays + 4),
+            // One more is there for a moment.
+            rays: Vec::with_capacity(rays + 1),
+            samples: Vec::with_capacity(rays + 1),
+            carried: Vec::with_capacity(rays + 1),
             occluded: Vec::with_capacity(rays),
         }
     }
@@ -179,7 +181,6 @@ impl ShadowRays {
 
     /// Traces all rays, adds what gets through to `radiance`, and returns how many they were.
     pub fn trace(&mut self, scene: &Scene, radiance: &mut [Spectrum]) -> u64 {
-        self.occluded.clear();
         self.occluded.resize(self.rays.len(), false);
         scene.accel().occluded(&self.rays, &mut self.occluded);
         for ((&sample, &carried), &occluded) in

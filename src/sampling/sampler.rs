@@ -14,6 +14,32 @@ pub struct SampleId {
     pub index: u32,
 }
 
+impl SampleId {
+    /// The runs of samples that are of the same set of the same pixel.
+    pub(crate) fn sets(ids: &[Self]) -> impl Iterator<Item = &[Self]> {
+        let mut ids = ids;
+        std::iter::from_fn(move || {
+            let (of_set, rest) = ids.split_at(Self::first_set(ids)?);
+            ids = rest;
+            Some(of_set)
+        })
+    }
+
+    /// How many are in the first run.
+    #[inline]
+    fn first_set(ids: &[Self]) -> Option<usize> {
+        let first = ids.first()?;
+        let differ = |id: &Self| {
+            (id.pixel.x ^ first.pixel.x) | (id.pixel.y ^ first.pixel.y) | (id.set ^ first.set)
+        };
+        // Eight at once, as long as that goes.
+        let (eights, _) = ids.as_chunks::<8>();
+        let alike = |ids: &&[Self; 8]| ids.iter().fold(0, |all, id| all | differ(id)) == 0;
+        let start = 8 * eights.iter().take_while(alike).count();
+        Some(start + ids[start..].iter().take_while(|id| differ(id) == 0).count())
+    }
+}
+
 /// A source of sample points in the unit square, one for each use that a light path makes of it.
 ///
 /// A sample is a pure function of the sampler (with its seed), the pixel, the set, the index and the

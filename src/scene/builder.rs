@@ -220,6 +220,7 @@ impl SceneBuilder {
         if triangles > Accel::MOST_TRIANGLES {
             return Err(SceneError::TooManyTriangles(triangles));
         }
+        let is_plain = shapes.iter().all(|shape| shape.plain.is_some());
         let start = Instant::now();
         let accel = Accel::build(&meshes);
         Ok(Scene {
@@ -232,6 +233,7 @@ impl SceneBuilder {
             meshes,
             lights,
             points: self.points,
+            is_plain,
             accel,
             build_seconds: start.elapsed().as_secs_f64(),
         })

@@ -58,6 +58,7 @@ pub struct Scene {
     lights: Vec<Arc<dyn Light>>,
     /// By light: those that are points. It may be shorter.
     points: Vec<Option<PointLight>>,
+    is_plain: bool,
     accel: Accel,
     build_seconds: f64,
 }
@@ -155,13 +156,21 @@ impl Scene {
         self.shapes.get(hit.shape as usize)?.plain.as_ref()
     }
 
+    /// Whether all of its surfaces are of that kind.
+    #[inline]
+    pub(crate) fn is_plain(&self) -> bool {
+        self.is_plain
+    }
+
     /// The corners of the triangle that was hit.
     ///
     /// # Panics
     /// Like [`Scene::interaction`].
-    #[inline]
-    pub(crate) fn corners(&self, hit: &Hit) -> [Vec3; 3] {
-        self.meshes[hit.shape as usize].corners(hit.triangle as usize)
+    #[inline(always)]
+    pub(crate) fn corners(&self, hit: &Hit) -> [&Vec3; 3] {
+        let TriangleMesh { positions, indices, .. } = &self.meshes[hit.shape as usize];
+        let [a, b, c] = indices[hit.triangle as usize];
+        [&positions[a as usize], &positions[b as usize], &positions[c as usize]]
     }
 
     /// How long the tree took to build, in seconds.
