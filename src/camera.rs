@@ -4,7 +4,7 @@ use glam::{DVec3, UVec2, Vec2, Vec3, Vec4};
 
 use crate::geometry::Ray;
 use crate::geometry::float::LARGEST_COORDINATE;
-use crate::geometry::four::{self, Vec3x4};
+use crate::geometry::four::{Vec3x4, four, rays_x4};
 use crate::sampling::concentric_disk;
 
 /// Why a camera cannot be built.
@@ -148,20 +148,22 @@ impl Camera {
         let corner = self.corner(pixel);
         let [eye, forward, pixel_x, pixel_y] =
             [self.eye, self.forward, self.pixel_x, self.pixel_y].map(Vec3x4::splat);
-        let direction = |offsets: &[Vec2]| {
-            let [x, y] = [0, 1].map(|i| {
-                let [a, b, c, d] = [0, 1, 2, 3].map(|place| offsets[place][i]);
-                Vec4::splat(corner[i]) + Vec4::new(a, b, c, d)
-            });
+        let direction = |offsets: &[Vec2; 4]| {
+            let x = Vec4::splat(corner.x) + Vec4::from_array(four(|i| offsets[i].x));
+            let y = Vec4::splat(corner.y) + Vec4::from_array(four(|i| offsets[i].y));
             let through = forward + pixel_x * x + pixel_y * y;
             through * (1.0 / through.length_squared().sqrt())
         };
         // Two times four, so that the processor has something to do while it waits for a root.
-        let (eights, rest) = offsets.as_chunks::<8>();
-        for offsets in eights {
-            let (a, b) = (direction(&offsets[..4]), direction(&offsets[4..]));
-            rays.extend_from_slice(&four::rays(eye, a, Vec4::splat(f32::INFINITY)));
-            rays.extend_from_slice(&four::rays(eye, b, Vec4::splat(f32::INFINITY)));
+        let (fours, rest) = offsets.as_chunks::<4>();
+        let (pairs, last) = fours.as_chunks::<2>();
+        for [a, b] in pairs {
+            let (a, b) = (direction(a), direction(b));
+            rays.extend_from_slice(&rays_x4(eye, a, Vec4::INFINITY));
+            rays.extend_from_slice(&rays_x4(eye, b, Vec4::INFINITY));
+        }
+        for offsets in last {
+            rays.extend_from_slice(&rays_x4(eye, direction(offsets), Vec4::INFINITY));
         }
         rays.extend(rest.iter().map(|&offset| self.generate_ray(pixel, offset, || Vec2::ZERO)));
     }

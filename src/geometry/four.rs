@@ -7,6 +7,19 @@ use glam::{BVec4A, Mat4, Vec3, Vec4};
 use super::Ray;
 use super::float::gamma;
 
+/// What `f` gives for 0, 1, 2 and 3. Unlike `std::array::from_fn` and `map`, it is always compiled into its
+/// caller.
+#[inline(always)]
+pub fn four<T>(mut f: impl FnMut(usize) -> T) -> [T; 4] {
+    [f(0), f(1), f(2), f(3)]
+}
+
+/// The same for 0, 1 and 2.
+#[inline(always)]
+pub fn three<T>(mut f: impl FnMut(usize) -> T) -> [T; 3] {
+    [f(0), f(1), f(2)]
+}
+
 /// Four vectors, coordinate by coordinate. Each operation gives what that of [`Vec3`] gives, bit by bit.
 #[derive(Clone, Copy)]
 pub struct Vec3x4 {
@@ -171,7 +184,7 @@ impl BoundedPointx4 {
 #[inline(always)]
 fn round_away(values: Vec4, offsets: Vec4) -> Vec4 {
     let (values, offsets) = (values.to_array(), offsets.to_array());
-    Vec4::from_array(std::array::from_fn(|i| {
+    Vec4::from_array(four(|i| {
         let (value, offset) = (values[i].to_bits() as i32, offsets[i].to_bits() as i32);
         // Both signs as 0 or -1, so that a step away from zero is one up in bits.
         let step = ((value >> 31) ^ (offset >> 31)) | 1;
@@ -181,9 +194,10 @@ fn round_away(values: Vec4, offsets: Vec4) -> Vec4 {
     }))
 }
 
-/// Four times [`triangle_normal`](crate::shape::triangle_normal), if none of them needs more than f32.
+/// Four times [`triangle_normal`](crate::shape::triangle_normal), and whether that was possible: whether none
+/// of them needs more than f32.
 #[inline(always)]
-pub fn triangle_normals([p0, p1, p2]: [Vec3x4; 3]) -> Option<Vec3x4> {
+pub fn triangle_normals([p0, p1, p2]: [Vec3x4; 3]) -> (Vec3x4, bool) {
     let (e1, e2) = (p1 - p0, p2 - p0);
     let n = e1.cross(e2);
     let length2 = n.length_squared();
@@ -191,17 +205,12 @@ pub fn triangle_normals([p0, p1, p2]: [Vec3x4; 3]) -> Option<Vec3x4> {
     let sound = length2.cmpgt(least)
         & length2.cmpgt(Vec4::splat(f32::MIN_POSITIVE / f32::EPSILON))
         & length2.cmplt(Vec4::INFINITY);
-    sound.all().then(|| n.divided_by(length2.sqrt()))
+    (n.divided_by(length2.sqrt()), sound.all())
 }
 
 /// Rays from `o` along `d`, from t = 0 to `t_max`.
 #[inline(always)]
-pub fn rays(o: Vec3x4, d: Vec3x4, t_max: Vec4) -> [Ray; 4] {
+pub fn rays_x4(o: Vec3x4, d: Vec3x4, t_max: Vec4) -> [Ray; 4] {
     let (o, d) = (o.rows(Vec4::ZERO), d.rows(t_max));
-    std::array::from_fn(|i| Ray {
-        o: o[i].truncate(),
-        t_min: o[i].w,
-        d: d[i].truncate(),
-        t_max: d[i].w,
-    })
+    four(|i| Ray { o: o[i].truncate(), t_min: o[i].w, d: d[i].truncate(), t_max: d[i].w })
 }

@@ -1,17 +1,46 @@
 //! [`PlainHits`]: the most common hits by far, four at a time.
 
-use glam::{BVec4A, Vec2, Vec4};
+use glam::{BVec4A, Vec2, Vec3, Vec4};
 
 use super::paths::Path;
 use crate::Spectrum;
 use crate::accel::Hit;
 use crate::bxdf::BxDF;
 use crate::geometry::Ray;
-use crate::geometry::four::{BoundedPointx4, Framex4, Vec3x4, triangle_normals};
+use crate::geometry::four::{BoundedPointx4, Framex4, Vec3x4, four, three, triangle_normals};
 use crate::sampling::cosine_hemisphere;
 use crate::scene::Scene;
 
-/// Four hits on flat triangles with one constant Lambertian lobe.
+/// What has to be fetched for four hits on flat triangles with one constant Lambertian lobe.
+pub struct Fetched<'a> {
+    paths: [&'a Path; 4],
+    corners: [Vec3x4; 3],
+    weights: [Vec4; 3],
+    /// Against the rays.
+    wo: Vec3x4,
+    /// The value of the lobe.
+    f: [Spectrum; 4],
+}
+
+impl<'a> Fetched<'a> {
+    /// # Panics
+    /// If the hits are of another kind.
+    #[inline(always)]
+    pub fn new(scene: &Scene, paths: [&'a Path; 4], rays: [&Ray; 4], hits: [&Hit; 4]) -> Self {
+        let lobe = |i: usize| scene.plain(hits[i]).expect("only plain hits are handed in");
+        let [a, b, c, d] = four(|i| scene.corners(hits[i]));
+        Self {
+            paths,
+            corners: three(|i| Vec3x4::new([a[i], b[i], c[i], d[i]])),
+            weights: three(|i| Vec4::from_array(four(|hit| hits[hit].b[i]))),
+            wo: -Vec3x4::new(four(|i| &rays[i].d)),
+            // It looks at no directions.
+            f: four(|i| lobe(i).f(Vec3::Z, Vec3::Z)),
+        }
+    }
+}
+
+/// Four such hits.
 ///
 /// All that is found here is found by the same operations as with a [`SurfaceInteraction`] and a [`Bsdf`],
 /// in the same order, so that both give the same bits.
@@ -22,33 +51,19 @@ pub struct PlainHits<'a> {
     pub paths: [&'a Path; 4],
     pub at: BoundedPointx4,
     pub n: Vec3x4,
-    /// The value of the lobe.
+    /// Whether all normals could be found in f32. If not, nothing here is of use.
+    pub sound: bool,
     f: [Spectrum; 4],
     wo_n: Vec4,
 }
 
 impl<'a> PlainHits<'a> {
-    /// What is known of the hits, if all are of the kind.
     #[inline(always)]
-    pub fn new(
-        scene: &Scene,
-        paths: [&'a Path; 4],
-        rays: [&Ray; 4],
-        hits: [&Hit; 4],
-    ) -> Option<Self> {
-        let lobes = hits.map(|hit| scene.plain(hit));
-        let [Some(a), Some(b), Some(c), Some(d)] = lobes else { return None };
-        // A Lambertian lobe looks at no directions.
-        let f = [a, b, c, d].map(|lobe| lobe.f(glam::Vec3::Z, glam::Vec3::Z));
-        let [a, b, c, d] = hits;
-        let weights = [0, 1, 2].map(|i| Vec4::new(a.b[i], b.b[i], c.b[i], d.b[i]));
-        let (a, b) = (scene.corners(a), scene.corners(b));
-        let (c, d) = (scene.corners(c), scene.corners(d));
-        let corners = [0, 1, 2].map(|i| Vec3x4::new([a[i], b[i], c[i], d[i]]));
-        let n = triangle_normals(corners)?;
-        let wo = -Vec3x4::new(rays.map(|ray| &ray.d));
+    pub fn new(fetched: &Fetched<'a>) -> Self {
+        let &Fetched { paths, corners, weights, wo, f } = fetched;
+        let (n, sound) = triangle_normals(corners);
         let at = BoundedPointx4::on_triangles(corners, weights);
-        Some(Self { paths, at, n, f, wo_n: wo.dot(n) })
+        Self { paths, at, n, sound, f, wo_n: wo.dot(n) }
     }
 
     /// Which hits reflect light from `wi`, and the cosines between these and the normals.
@@ -71,7 +86,7 @@ impl<'a> PlainHits<'a> {
     /// What the paths carry times the lobes.
     #[inline(always)]
     pub fn reflected(&self) -> [Spectrum; 4] {
-        std::array::from_fn(|i| self.paths[i].beta * self.f[i])
+        four(|i| self.paths[i].beta * self.f[i])
     }
 
     /// The paths with one more reflection, and the directions in which they go on. Bit i of the mask is for the
@@ -87,7 +102,7 @@ impl<'a> PlainHits<'a> {
         let factor = (wi_n.abs() / pdf).to_array();
         let reflected = self.reflected();
         let p = self.at.p.rows(pdf);
-        let paths = std::array::from_fn(|i| {
+        let paths = four(|i| {
             let beta = reflected[i] * factor[i];
             mask &= !(u32::from(beta.is_black()) << i);
             let path = self.paths[i];

@@ -1,17 +1,17 @@
 //! [`LightSamples`]: light that may arrive at four hits.
 
-use glam::{BVec4A, Vec2, Vec4};
+use glam::{BVec4A, Vec2, Vec3, Vec4};
 
 use super::plain::PlainHits;
 use super::transport::Transport;
 use crate::Spectrum;
 use crate::geometry::Ray;
 use crate::geometry::float::ONE_MINUS_EPSILON;
-use crate::geometry::four::{self, Vec3x4};
-use crate::light::{LightSample, PointLight};
+use crate::geometry::four::{Vec3x4, four, rays_x4};
+use crate::light::PointLight;
 use crate::scene::Scene;
 
-/// Four of [`LightSample`], of which some may be missing.
+/// Four of [`LightSample`](crate::light::LightSample), of which some may be missing.
 pub struct LightSamples {
     exists: BVec4A,
     li: [Spectrum; 4],
@@ -26,26 +26,16 @@ pub struct LightSamples {
 }
 
 impl LightSamples {
-    /// A sample for each of the points `p`, of the light with the number beside its place on the light.
+    /// Samples of one point light for the points `p`.
     #[inline(always)]
-    pub fn new(transport: &Transport, scene: &Scene, p: Vec3x4, drawn: [(usize, Vec2); 4]) -> Self {
-        let number = drawn[0].0;
-        let same = drawn.iter().all(|&(other, _)| other == number);
-        match transport.points[number] {
-            Some(light) if same => Self::of_point(light, transport.probability[number], p),
-            _ => Self::of_any(transport, scene, p, drawn),
-        }
-    }
-
-    #[inline(always)]
-    fn of_point(light: PointLight, probability: f32, p: Vec3x4) -> Self {
+    pub fn of_point(light: PointLight, probability: f32, p: Vec3x4) -> Self {
         let from = Vec3x4::splat(light.position());
         let to_light = from - p;
         let distance2 = to_light.length_squared();
         let falloff = distance2.to_array();
         Self {
             exists: distance2.cmpgt(Vec4::ZERO),
-            li: falloff.map(|distance2| light.intensity() / distance2),
+            li: four(|i| light.intensity() / falloff[i]),
             wi: to_light.divided_by(distance2.sqrt()),
             pdf: Vec4::splat(probability),
             from,
@@ -54,28 +44,36 @@ impl LightSamples {
         }
     }
 
-    #[inline(never)]
-    fn of_any(transport: &Transport, scene: &Scene, p: Vec3x4, drawn: [(usize, Vec2); 4]) -> Self {
+    /// A sample for each of the points `p`, of the light with the number beside its place on the light.
+    pub fn of_any(
+        transport: &Transport,
+        scene: &Scene,
+        p: Vec3x4,
+        drawn: [(usize, Vec2); 4],
+    ) -> Self {
         let p = p.rows(Vec4::ZERO);
-        let samples: [_; 4] = std::array::from_fn(|i| {
-            let (number, u) = drawn[i];
-            scene.lights()[number].sample_li(p[i].truncate(), u)
-        });
-        let none = LightSample { li: Spectrum::BLACK, wi: glam::Vec3::Z, pdf: 1.0, from: None };
-        let exists = BVec4A::from_array(samples.map(|sample| sample.is_some()));
-        let samples = samples.map(|sample| sample.unwrap_or(none));
-        let from = samples.map(|sample| sample.from.unwrap_or_default());
-        let probability = drawn.map(|(number, _)| transport.probability[number]);
+        let (mut exists, mut is_near, mut weighed) = ([false; 4], [false; 4], [false; 4]);
+        let (mut li, mut pdf) = ([Spectrum::BLACK; 4], [1.0; 4]);
+        let (mut wi, mut from) = ([Vec3::Z; 4], [Vec3::ZERO; 4]);
+        for (i, (number, u)) in drawn.into_iter().enumerate() {
+            let light = &*scene.lights()[number];
+            let Some(sample) = light.sample_li(p[i].truncate(), u) else { continue };
+            exists[i] = true;
+            li[i] = sample.li;
+            wi[i] = sample.wi;
+            pdf[i] = sample.pdf * transport.probability[number];
+            is_near[i] = sample.from.is_some();
+            from[i] = sample.from.unwrap_or_default();
+            weighed[i] = transport.finds && !light.is_delta();
+        }
         Self {
-            exists,
-            li: samples.map(|sample| sample.li),
-            wi: Vec3x4::new(samples.each_ref().map(|sample| &sample.wi)),
-            pdf: Vec4::from_array(samples.map(|sample| sample.pdf)) * Vec4::from_array(probability),
-            from: Vec3x4::new(from.each_ref()),
-            is_near: BVec4A::from_array(samples.map(|sample| sample.from.is_some())),
-            weighed: BVec4A::from_array(
-                drawn.map(|(number, _)| transport.finds && !scene.lights()[number].is_delta()),
-            ),
+            exists: BVec4A::from_array(exists),
+            li,
+            wi: Vec3x4::new(four(|i| &wi[i])),
+            pdf: Vec4::from_array(pdf),
+            from: Vec3x4::new(four(|i| &from[i])),
+            is_near: BVec4A::from_array(is_near),
+            weighed: BVec4A::from_array(weighed),
         }
     }
 
@@ -91,12 +89,12 @@ impl LightSamples {
         }
         let factor = (wi_n.abs() * weight / self.pdf).to_array();
         let reflected = hits.reflected();
-        let carried = std::array::from_fn(|i| reflected[i] * self.li[i] * factor[i]);
+        let carried = four(|i| reflected[i] * self.li[i] * factor[i]);
         let towards = Vec3x4::select(self.is_near, self.from - hits.at.p, self.wi);
         let o = hits.at.ray_origins(hits.n, towards);
         let d = Vec3x4::select(self.is_near, self.from - o, self.wi);
         let t_max =
             Vec4::select(self.is_near, Vec4::splat(ONE_MINUS_EPSILON), Vec4::splat(f32::INFINITY));
-        ((reflect & self.exists).bitmask(), four::rays(o, d, t_max), carried)
+        ((reflect & self.exists).bitmask(), rays_x4(o, d, t_max), carried)
     }
 }

@@ -1,9 +1,10 @@
 //! [`Scatter`]: light samples and new directions at the hits of a wave.
 
-use glam::Vec2;
+use arrayvec::ArrayVec;
+use glam::{Vec2, Vec4};
 
 use super::paths::{Path, Paths, Values, Vertex};
-use super::plain::{PlainHits, push_x4};
+use super::plain::{Fetched, PlainHits, push_x4};
 use super::plain_lights::LightSamples;
 use super::transport::{Draw, Transport, power_heuristic};
 use super::wave::{ShadowRays, Wave, dimension};
@@ -11,10 +12,13 @@ use crate::Spectrum;
 use crate::accel::Hit;
 use crate::bxdf::{Arena, BxdfFlags, TransportMode};
 use crate::geometry::Ray;
-use crate::geometry::four;
+use crate::geometry::four::{Vec3x4, four, rays_x4};
 use crate::light::LightSample;
 use crate::sampling::Sampler;
 use crate::scene::Scene;
+
+/// How many fours of plain hits are worked on together: what is known of them stays in the first-level cache.
+const BLOCK: usize = 16;
 
 /// One such stage.
 pub struct Scatter<'a> {
@@ -54,22 +58,39 @@ impl Transport {
             next_rays,
             rejected: 0,
         };
+        let at = |place: u32| {
+            let place = place as usize;
+            (&states[place], &rays[place], &hits[place])
+        };
         let (fours, _) = met.active[..met.plain].as_chunks::<4>();
-        for (four, places) in fours.iter().enumerate() {
-            let places = places.map(|place| place as usize);
-            let (paths, rays, hits) =
-                (places.map(|i| &states[i]), places.map(|i| &rays[i]), places.map(|i| &hits[i]));
-            if let Some(plain) = PlainHits::new(scene, paths, rays, hits) {
-                scatter.four(4 * four, &plain);
-            } else {
-                for i in 0..4 {
-                    scatter.one(4 * four + i, paths[i], rays[i], hits[i], arena);
+        for (block, places) in fours.chunks(BLOCK).enumerate() {
+            // In three short loops, so that the processor sees several turns of each at a time.
+            let fetched: ArrayVec<_, BLOCK> = places
+                .iter()
+                .map(|places| {
+                    let [a, b, c, d] = four(|i| at(places[i]));
+                    Fetched::new(
+                        scene,
+                        [a.0, b.0, c.0, d.0],
+                        [a.1, b.1, c.1, d.1],
+                        [a.2, b.2, c.2, d.2],
+                    )
+                })
+                .collect();
+            let plain: ArrayVec<_, BLOCK> = fetched.iter().map(PlainHits::new).collect();
+            for (four, plain) in plain.iter().enumerate() {
+                let turn = 4 * (BLOCK * block + four);
+                if plain.sound {
+                    scatter.four(turn, plain);
+                } else {
+                    for (turn, &place) in (turn..).zip(&places[four]) {
+                        scatter.one(turn, at(place), arena);
+                    }
                 }
             }
         }
         for (turn, &place) in met.active.iter().enumerate().skip(4 * fours.len()) {
-            let place = place as usize;
-            scatter.one(turn, &states[place], &rays[place], &hits[place], arena);
+            scatter.one(turn, at(place), arena);
         }
         counters.rejected += scatter.rejected;
         arena.reset();
@@ -79,7 +100,7 @@ impl Transport {
 impl Scatter<'_> {
     /// A hit of any kind.
     #[inline(never)]
-    fn one(&mut self, turn: usize, path: &Path, ray: &Ray, hit: &Hit, arena: &Arena) {
+    fn one(&mut self, turn: usize, (path, ray, hit): (&Path, &Ray, &Hit), arena: &Arena) {
         let Self { transport, scene, values, depth, .. } = *self;
         let mut si = scene.interaction(ray, hit);
         let material = scene.material(hit);
@@ -149,33 +170,44 @@ impl Scatter<'_> {
         self.shadow.push(path.sample as usize, ray, carried);
     }
 
+    /// What the lights of a slot send to four points.
+    #[inline(always)]
+    fn lights(&self, slot: usize, turn: usize, p: Vec3x4) -> LightSamples {
+        let Self { transport, scene, .. } = self;
+        if let Draw::Each(lights) = &transport.draw
+            && let Some(light) = transport.points[lights[slot]]
+        {
+            return LightSamples::of_point(light, transport.probability[lights[slot]], p);
+        }
+        LightSamples::of_any(transport, scene, p, four(|i| self.drawn(slot, turn + i)))
+    }
+
     /// Four plain hits.
     #[inline(always)]
     fn four(&mut self, turn: usize, hits: &PlainHits) {
         let Self { transport, scene, values, depth, .. } = *self;
         for slot in 0..transport.slots() {
-            let drawn = std::array::from_fn(|i| self.drawn(slot, turn + i));
-            let lights = LightSamples::new(transport, scene, hits.at.p, drawn);
+            let lights = self.lights(slot, turn, hits.at.p);
             let (mask, rays, carried) = lights.reflected(hits);
             self.shadow.push_x4(mask, hits.paths, &rays, &carried);
         }
         if !transport.goes_on(depth) {
             return;
         }
-        let u = std::array::from_fn(|i| values.direction[turn + i]);
+        let u = four(|i| values.direction[turn + i]);
         let (mut mask, mut paths, wi) = hits.step(u);
         if transport.throws(depth) {
             for (i, path) in paths.iter_mut().enumerate() {
                 mask &= !(u32::from(!path.survives(values.roulette[turn + i])) << i);
             }
         }
-        let rays = four::rays(hits.at.ray_origins(hits.n, wi), wi, [f32::INFINITY; 4].into());
+        let rays = rays_x4(hits.at.ray_origins(hits.n, wi), wi, Vec4::INFINITY);
         if transport.walks_on(depth) {
             push_x4(self.next_states, mask, &paths);
             push_x4(self.next_rays, mask, &rays);
             return;
         }
-        let found: [Spectrum; 4] = std::array::from_fn(|i| {
+        let found = four(|i| {
             if mask >> i & 1 == 0 {
                 return Spectrum::BLACK;
             }

@@ -8,6 +8,8 @@ use std::f32::consts::{FRAC_1_PI, FRAC_PI_4};
 
 use glam::{Vec2, Vec2Swizzles, Vec4};
 
+use crate::geometry::four::four;
+
 /// A point of the unit disk.
 #[inline]
 pub fn sample(u: Vec2) -> Vec2 {
@@ -33,7 +35,8 @@ pub(super) fn polar(u: Vec2) -> (f32, Vec2) {
 /// Four times [`polar`].
 #[inline(always)]
 pub(super) fn polar_x4(u: [Vec2; 4]) -> (Vec4, [Vec4; 2]) {
-    let [x, y] = [0, 1].map(|i| Vec4::from_array(u.map(|u| u[i])) * 2.0 - Vec4::ONE);
+    let x = 2.0 * Vec4::from_array(four(|i| u[i].x)) - Vec4::ONE;
+    let y = 2.0 * Vec4::from_array(four(|i| u[i].y)) - Vec4::ONE;
     let x_larger = x.abs().cmpgt(y.abs());
     let r = Vec4::select(x_larger, x, y);
     let center = r.cmpeq(Vec4::ZERO);
