@@ -1,5 +1,6 @@
 //! [`Vec3x4`]: four vectors at once.
 
+use std::hint::black_box;
 use std::ops::{Add, Mul, Neg, Sub};
 
 use glam::{BVec4A, Mat4, Vec3, Vec4};
@@ -50,7 +51,8 @@ impl Vec3x4 {
     pub fn rows(self, w: Vec4) -> [Vec4; 4] {
         let Mat4 { x_axis, y_axis, z_axis, w_axis } =
             Mat4::from_cols(self.x, self.y, self.z, w).transpose();
-        [x_axis, y_axis, z_axis, w_axis]
+        // Out of sight of the optimiser, which would take them apart and store number by number.
+        black_box([x_axis, y_axis, z_axis, w_axis])
     }
 
     #[inline(always)]

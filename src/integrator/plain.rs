@@ -11,33 +11,56 @@ use crate::geometry::four::{BoundedPointx4, Framex4, Vec3x4, four, three, triang
 use crate::sampling::cosine_hemisphere;
 use crate::scene::Scene;
 
-/// What has to be fetched for four hits on flat triangles with one constant Lambertian lobe.
-pub struct Fetched<'a> {
-    paths: [&'a Path; 4],
-    corners: [Vec3x4; 3],
-    weights: [Vec4; 3],
-    /// Against the rays.
-    wo: Vec3x4,
+/// How many hits are worked on together: what is known of them stays in the first-level cache.
+pub const BLOCK: usize = 64;
+
+/// What has to be fetched for hits on flat triangles with one constant Lambertian lobe, each number in a row
+/// of its own.
+pub struct Fetched {
+    /// By corner and axis.
+    corners: [[[f32; BLOCK]; 3]; 3],
+    weights: [[f32; BLOCK]; 3],
+    d: [[f32; BLOCK]; 3],
     /// The value of the lobe.
-    f: [Spectrum; 4],
+    f: [Spectrum; BLOCK],
 }
 
-impl<'a> Fetched<'a> {
-    /// # Panics
-    /// If the hits are of another kind.
-    #[inline(always)]
-    pub fn new(scene: &Scene, paths: [&'a Path; 4], rays: [&Ray; 4], hits: [&Hit; 4]) -> Self {
-        let lobe = |i: usize| scene.plain(hits[i]).expect("only plain hits are handed in");
-        let [a, b, c, d] = four(|i| scene.corners(hits[i]));
-        Self {
-            paths,
-            corners: three(|i| Vec3x4::new([a[i], b[i], c[i], d[i]])),
-            weights: three(|i| Vec4::from_array(four(|hit| hits[hit].b[i]))),
-            wo: -Vec3x4::new(four(|i| &rays[i].d)),
-            // It looks at no directions.
-            f: four(|i| lobe(i).f(Vec3::Z, Vec3::Z)),
-        }
+impl Fetched {
+    /// Room for a block.
+    pub fn new() -> Self {
+        let rows = [[0.0; BLOCK]; 3];
+        Self { corners: [rows; 3], weights: rows, d: rows, f: [Spectrum::BLACK; BLOCK] }
     }
+
+    /// Fetches the i-th hit of a block.
+    ///
+    /// # Panics
+    /// If it is of another kind.
+    #[inline(always)]
+    pub fn set(&mut self, i: usize, scene: &Scene, ray: &Ray, hit: &Hit) {
+        let lobe = scene.plain(hit).expect("only plain hits are handed in");
+        // It looks at no directions.
+        self.f[i] = lobe.f(Vec3::Z, Vec3::Z);
+        for (rows, corner) in self.corners.iter_mut().zip(scene.corners(hit)) {
+            set(rows, i, corner.to_array());
+        }
+        set(&mut self.weights, i, hit.b);
+        set(&mut self.d, i, ray.d.to_array());
+    }
+}
+
+#[inline(always)]
+fn set(rows: &mut [[f32; BLOCK]; 3], i: usize, values: [f32; 3]) {
+    for (row, value) in rows.iter_mut().zip(values) {
+        row[i] = value;
+    }
+}
+
+/// Four neighbours in each of three rows.
+#[inline(always)]
+fn get(rows: &[[f32; BLOCK]; 3], four: usize) -> Vec3x4 {
+    let [x, y, z] = three(|i| Vec4::from_array(rows[i].as_chunks::<4>().0[four]));
+    Vec3x4 { x, y, z }
 }
 
 /// Four such hits.
@@ -58,12 +81,15 @@ pub struct PlainHits<'a> {
 }
 
 impl<'a> PlainHits<'a> {
+    /// The hits of a block that have these paths, of which `four` fours go before.
     #[inline(always)]
-    pub fn new(fetched: &Fetched<'a>) -> Self {
-        let &Fetched { paths, corners, weights, wo, f } = fetched;
+    pub fn new(fetched: &Fetched, four: usize, paths: [&'a Path; 4]) -> Self {
+        let corners = three(|corner| get(&fetched.corners[corner], four));
+        let Vec3x4 { x, y, z } = get(&fetched.weights, four);
         let (n, sound) = triangle_normals(corners);
-        let at = BoundedPointx4::on_triangles(corners, weights);
-        Self { paths, at, n, sound, f, wo_n: wo.dot(n) }
+        let at = BoundedPointx4::on_triangles(corners, [x, y, z]);
+        let wo_n = -get(&fetched.d, four).dot(n);
+        Self { paths, at, n, sound, f: fetched.f.as_chunks::<4>().0[four], wo_n }
     }
 
     /// Which hits reflect light from `wi`, and the cosines between these and the normals.

@@ -4,7 +4,7 @@ use arrayvec::ArrayVec;
 use glam::{Vec2, Vec4};
 
 use super::paths::{Path, Paths, Values, Vertex};
-use super::plain::{Fetched, PlainHits, push_x4};
+use super::plain::{BLOCK, Fetched, PlainHits, push_x4};
 use super::plain_lights::LightSamples;
 use super::transport::{Draw, Transport, power_heuristic};
 use super::wave::{ShadowRays, Wave, dimension};
@@ -16,9 +16,6 @@ use crate::geometry::four::{Vec3x4, four, rays_x4};
 use crate::light::LightSample;
 use crate::sampling::Sampler;
 use crate::scene::Scene;
-
-/// How many fours of plain hits are worked on together: what is known of them stays in the first-level cache.
-const BLOCK: usize = 16;
 
 /// One such stage.
 pub struct Scatter<'a> {
@@ -62,28 +59,25 @@ impl Transport {
             let place = place as usize;
             (&states[place], &rays[place], &hits[place])
         };
+        let mut fetched = Fetched::new();
+        let mut plain = ArrayVec::<_, { BLOCK / 4 }>::new();
         let (fours, _) = met.active[..met.plain].as_chunks::<4>();
-        for (block, places) in fours.chunks(BLOCK).enumerate() {
+        for (block, fours) in fours.chunks(BLOCK / 4).enumerate() {
             // In three short loops, so that the processor sees several turns of each at a time.
-            let fetched: ArrayVec<_, BLOCK> = places
-                .iter()
-                .map(|places| {
-                    let [a, b, c, d] = four(|i| at(places[i]));
-                    Fetched::new(
-                        scene,
-                        [a.0, b.0, c.0, d.0],
-                        [a.1, b.1, c.1, d.1],
-                        [a.2, b.2, c.2, d.2],
-                    )
-                })
-                .collect();
-            let plain: ArrayVec<_, BLOCK> = fetched.iter().map(PlainHits::new).collect();
-            for (four, plain) in plain.iter().enumerate() {
-                let turn = 4 * (BLOCK * block + four);
+            for (i, &place) in fours.as_flattened().iter().enumerate() {
+                let (_, ray, hit) = at(place);
+                fetched.set(i, scene, ray, hit);
+            }
+            plain.clear();
+            for (i, places) in fours.iter().enumerate() {
+                plain.push(PlainHits::new(&fetched, i, four(|i| at(places[i]).0)));
+            }
+            for (i, (plain, places)) in plain.iter().zip(fours).enumerate() {
+                let turn = BLOCK * block + 4 * i;
                 if plain.sound {
                     scatter.four(turn, plain);
                 } else {
-                    for (turn, &place) in (turn..).zip(&places[four]) {
+                    for (turn, &place) in (turn..).zip(places) {
                         scatter.one(turn, at(place), arena);
                     }
                 }
