@@ -1,9 +1,10 @@
 //! [`Camera`]: perspective, with a thin lens if it has one.
 
-use glam::{DVec3, UVec2, Vec2, Vec3};
+use glam::{DVec3, UVec2, Vec2, Vec3, Vec4};
 
 use crate::geometry::Ray;
 use crate::geometry::float::LARGEST_COORDINATE;
+use crate::geometry::four::{Vec3x4, four, rays_x4};
 use crate::sampling::concentric_disk;
 
 /// Why a camera cannot be built.
@@ -116,7 +117,7 @@ impl Camera {
     /// Its direction has unit length. `lens_u` in `[0, 1)²` is only called for a lens.
     #[inline]
     pub fn generate_ray(&self, pixel: UVec2, offset: Vec2, lens_u: impl FnOnce() -> Vec2) -> Ray {
-        let place = pixel.as_vec2() - self.half_resolution + offset;
+        let place = self.corner(pixel) + offset;
         let through = self.forward + place.x * self.pixel_x + place.y * self.pixel_y;
         let Some([lens_x, lens_y]) = self.lens else {
             return Ray::new(self.eye, through.normalize());
@@ -126,6 +127,45 @@ impl Camera {
         let on_lens = lens_point.x * lens_x + lens_point.y * lens_y;
         // Divided by the distance of that plane, which may be too large to multiply by.
         Ray::new(self.eye + on_lens, (through - on_lens / self.focal_distance).normalize())
+    }
+}
+
+impl Camera {
+    /// A pixel's upper left corner, in pixels from the middle of the image.
+    #[inline]
+    fn corner(&self, pixel: UVec2) -> Vec2 {
+        pixel.as_vec2() - self.half_resolution
+    }
+
+    /// Adds to `rays` those through points of one pixel, [`Camera::generate_ray`] for each, of a camera without
+    /// a lens.
+    pub(crate) fn generate_pinhole_rays(
+        &self,
+        pixel: UVec2,
+        offsets: &[Vec2],
+        rays: &mut Vec<Ray>,
+    ) {
+        let corner = self.corner(pixel);
+        let [eye, forward, pixel_x, pixel_y] =
+            [self.eye, self.forward, self.pixel_x, self.pixel_y].map(Vec3x4::splat);
+        let direction = |offsets: &[Vec2; 4]| {
+            let x = Vec4::splat(corner.x) + Vec4::from_array(four(|i| offsets[i].x));
+            let y = Vec4::splat(corner.y) + Vec4::from_array(four(|i| offsets[i].y));
+            let through = forward + pixel_x * x + pixel_y * y;
+            through * (1.0 / through.length_squared().sqrt())
+        };
+        // Two times four, so that the processor has something to do while it waits for a root.
+        let (fours, rest) = offsets.as_chunks::<4>();
+        let (pairs, last) = fours.as_chunks::<2>();
+        for [a, b] in pairs {
+            let (a, b) = (direction(a), direction(b));
+            rays.extend_from_slice(&rays_x4(eye, a, Vec4::INFINITY));
+            rays.extend_from_slice(&rays_x4(eye, b, Vec4::INFINITY));
+        }
+        for offsets in last {
+            rays.extend_from_slice(&rays_x4(eye, direction(offsets), Vec4::INFINITY));
+        }
+        rays.extend(rest.iter().map(|&offset| self.generate_ray(pixel, offset, || Vec2::ZERO)));
     }
 }
 

@@ -143,14 +143,24 @@ impl Film {
     /// of this number, which is only looked at for [`Variance::OfSets`] and is below that number of sets.
     #[inline]
     pub fn add_sample(&mut self, pixel: UVec2, set: u32, radiance: Spectrum) {
-        if !radiance.is_finite() {
-            self.non_finite += 1;
-            return;
-        }
+        self.add_samples(pixel, set, &[radiance]);
+    }
+
+    /// Adds samples of one pixel and set, in their order.
+    #[inline]
+    pub fn add_samples(&mut self, pixel: UVec2, set: u32, radiance: &[Spectrum]) {
         let place = self.place(pixel);
-        let sum = &mut self.pixels[place];
-        sum.add(radiance.to_array());
-        self.spread.add(place, set, radiance.to_array(), sum);
+        // A copy, which stays in registers.
+        let mut sum = self.pixels[place];
+        for radiance in radiance {
+            if radiance.is_finite() {
+                sum.add(radiance.to_array());
+                self.spread.add(place, set, radiance.to_array(), &sum);
+            } else {
+                self.non_finite += 1;
+            }
+        }
+        self.pixels[place] = sum;
     }
 
     /// Adds what a sample of `pixel` met first, if all of it is finite, and counts it otherwise. Nothing

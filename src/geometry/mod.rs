@@ -2,6 +2,7 @@
 
 mod bounded;
 pub mod float;
+pub(crate) mod four;
 mod frame;
 mod optics;
 mod ray;

@@ -4,6 +4,9 @@ mod chapter;
 mod direct;
 mod path;
 mod paths;
+mod plain;
+mod plain_lights;
+mod scatter;
 mod transport;
 mod wave;
 

@@ -15,7 +15,8 @@ use crate::scene::Scene;
 pub struct Path {
     /// Which share of the light at its end reaches the camera, over the density of its being drawn.
     pub beta: Spectrum,
-    /// Where its ray begins, before the origin was moved off the surface.
+    /// Where its ray begins, before the origin was moved off the surface. Nothing of use for a ray from the
+    /// camera, which begins where it begins.
     pub p: Vec3,
     /// Density over solid angle of the ray's direction; infinite from the camera and from delta lobes.
     pub pdf: f32,
@@ -36,14 +37,16 @@ pub struct Values {
     pub roulette: Vec<f32>,
 }
 
-/// The paths of a wave. Element i of the first three belongs to the same path.
+/// The paths of a wave. Element i of `states`, `rays` and `hits` belongs to the same path. Before the first
+/// reflection `first` stands for the states, and rays and hits are those of the wave itself.
 #[derive(Default)]
 pub struct Paths {
+    /// The states of paths that begin: alike in all waves.
+    pub first: Vec<Path>,
     pub states: Vec<Path>,
     pub rays: Vec<Ray>,
     pub hits: Vec<Hit>,
-    /// Those that have met a surface.
-    pub active: Vec<u32>,
+    pub met: Met,
     pub values: Values,
     /// What becomes of `states` and `rays` after the reflection.
     pub next_states: Vec<Path>,
@@ -54,10 +57,16 @@ impl Paths {
     /// Room for so many paths.
     pub fn with_capacity(paths: usize) -> Self {
         Self {
-            states: Vec::with_capacity(paths),
+            first: Vec::with_capacity(paths),
+            states: Vec::with_capacity(paths + 1),
             rays: Vec::with_capacity(paths),
             hits: Vec::with_capacity(paths),
-            active: Vec::with_capacity(paths),
+            met: Met {
+                active: Vec::with_capacity(paths),
+                plain: 0,
+                others: Vec::with_capacity(paths),
+                escaped: Vec::with_capacity(paths),
+            },
             values: Values {
                 ids: Vec::with_capacity(paths),
                 direction: Vec::with_capacity(paths),
@@ -70,19 +79,15 @@ impl Paths {
         }
     }
 
-    /// Starts with camera rays and what they hit.
-    pub fn start(&mut self, rays: &[Ray], hits: &[Hit]) {
-        self.rays.clear();
-        self.rays.extend_from_slice(rays);
-        self.hits.clear();
-        self.hits.extend_from_slice(hits);
-        self.states.clear();
-        self.states.extend(rays.iter().zip(0..).map(|(ray, sample)| Path {
+    /// Starts with so many camera rays.
+    pub fn start(&mut self, rays: usize) {
+        let new = self.first.len()..rays;
+        self.first.extend(new.map(|sample| Path {
             beta: Spectrum::WHITE,
-            p: ray.o,
+            p: Vec3::ZERO,
             pdf: f32::INFINITY,
             eta_scale: 1.0,
-            sample,
+            sample: sample as u32,
         }));
     }
 
@@ -92,10 +97,52 @@ impl Paths {
         std::mem::swap(&mut self.rays, &mut self.next_rays);
         self.next_states.clear();
         self.next_rays.clear();
-        self.hits.clear();
+        // What is left of other rays is overwritten.
         self.hits.resize(self.rays.len(), Hit::MISS);
         scene.accel().intersect(&self.rays, &mut self.hits);
         self.rays.len() as u64
+    }
+}
+
+/// Places of paths, by what these have met.
+#[derive(Default)]
+pub struct Met {
+    /// A surface, plain ones first: see [`Scene::plain`].
+    pub active: Vec<u32>,
+    /// How many of these are plain.
+    pub plain: usize,
+    /// Nothing.
+    pub escaped: Vec<u32>,
+    /// For those that are not plain.
+    others: Vec<u32>,
+}
+
+impl Met {
+    /// Sorts the paths by what they have met.
+    #[inline(never)]
+    pub fn sort(&mut self, scene: &Scene, hits: &[Hit]) {
+        let Self { active, others, escaped, .. } = self;
+        active.resize(hits.len(), 0);
+        escaped.resize(hits.len(), 0);
+        // Each is written to both, and counted where it belongs: a branch would be hard to foresee.
+        let mut found = 0;
+        for ((place, hit), number) in hits.iter().enumerate().zip(0..) {
+            active[found] = number;
+            escaped[place - found] = number;
+            found += usize::from(hit.is_hit());
+        }
+        active.truncate(found);
+        escaped.truncate(hits.len() - found);
+        self.plain = found;
+        if !scene.is_plain() {
+            others.clear();
+            others.extend(
+                active.iter().filter(|&&place| scene.plain(&hits[place as usize]).is_none()),
+            );
+            active.retain(|&place| scene.plain(&hits[place as usize]).is_some());
+            self.plain = active.len();
+            active.extend_from_slice(others);
+        }
     }
 }
 

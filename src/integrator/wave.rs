@@ -1,9 +1,11 @@
 //! [`Wave`]: the samples that go through an integrator together.
 
-use super::paths::Paths;
+use super::paths::{Path, Paths};
+use super::plain::push_x4;
 use crate::Spectrum;
 use crate::accel::Hit;
 use crate::bxdf::Arena;
+use crate::film::Filter;
 use crate::geometry::Ray;
 use crate::sampling::{SampleId, Sampler};
 use crate::scene::Scene;
@@ -101,18 +103,11 @@ impl Wave {
         }
     }
 
-    /// Starts anew with the camera rays of these samples, and finds what they hit.
-    pub fn begin(
-        &mut self,
-        scene: &Scene,
-        sampler: &dyn Sampler,
-        ids: impl Iterator<Item = SampleId>,
-    ) {
-        self.ids.clear();
-        self.ids.extend(ids);
+    /// Starts anew with the camera rays of the samples in `ids`, and finds what they hit.
+    pub fn begin(&mut self, scene: &Scene, sampler: &dyn Sampler) {
         self.generate_rays(scene, sampler);
         self.counters.camera_rays += self.rays.len() as u64;
-        self.hits.clear();
+        // What is left of other rays is overwritten.
         self.hits.resize(self.rays.len(), Hit::MISS);
         scene.accel().intersect(&self.rays, &mut self.hits);
         self.radiance.clear();
@@ -128,9 +123,21 @@ impl Wave {
         let places = &mut paths.values.direction;
         sampler.fill_2d(ids, dimension::FILM, places);
         rays.clear();
-        rays.extend(ids.iter().zip(&*places).map(|(&id, &u)| {
-            camera.generate_ray(id.pixel, filter.place(u), || sampler.get_2d(id, dimension::LENS))
-        }));
+        if scene.film().filter != Filter::Box {
+            places.iter_mut().for_each(|place| *place = filter.place(*place));
+        }
+        if camera.has_lens() {
+            rays.extend(ids.iter().zip(&*places).map(|(&id, &place)| {
+                camera.generate_ray(id.pixel, place, || sampler.get_2d(id, dimension::LENS))
+            }));
+            return;
+        }
+        let mut places = &places[..];
+        for of_set in SampleId::sets(ids) {
+            let (of_pixel, rest) = places.split_at(of_set.len());
+            camera.generate_pinhole_rays(of_set[0].pixel, of_pixel, rays);
+            places = rest;
+        }
     }
 }
 
@@ -138,15 +145,18 @@ impl Wave {
 #[derive(Default)]
 pub struct ShadowRays {
     rays: Vec<Ray>,
-    carried: Vec<(usize, Spectrum)>,
+    samples: Vec<u32>,
+    carried: Vec<Spectrum>,
     occluded: Vec<bool>,
 }
 
 impl ShadowRays {
     fn with_capacity(rays: usize) -> Self {
         Self {
-            rays: Vec::with_capacity(rays),
-            carried: Vec::with_capacity(rays),
+            // One more is there for a moment.
+            rays: Vec::with_capacity(rays + 1),
+            samples: Vec::with_capacity(rays + 1),
+            carried: Vec::with_capacity(rays + 1),
             occluded: Vec::with_capacity(rays),
         }
     }
@@ -155,21 +165,36 @@ impl ShadowRays {
     #[inline]
     pub fn push(&mut self, sample: usize, ray: Ray, radiance: Spectrum) {
         self.rays.push(ray);
-        self.carried.push((sample, radiance));
+        self.samples.push(sample as u32);
+        self.carried.push(radiance);
+    }
+
+    /// Adds those rays of four paths whose bits in the mask are set.
+    #[inline(always)]
+    pub(super) fn push_x4(
+        &mut self,
+        mask: u32,
+        paths: [&Path; 4],
+        rays: &[Ray; 4],
+        radiance: &[Spectrum; 4],
+    ) {
+        push_x4(&mut self.rays, mask, rays);
+        push_x4(&mut self.samples, mask, &paths.map(|path| path.sample));
+        push_x4(&mut self.carried, mask, radiance);
     }
 
     /// Traces all rays, adds what gets through to `radiance`, and returns how many they were.
     pub fn trace(&mut self, scene: &Scene, radiance: &mut [Spectrum]) -> u64 {
-        self.occluded.clear();
         self.occluded.resize(self.rays.len(), false);
         scene.accel().occluded(&self.rays, &mut self.occluded);
-        for (&(sample, carried), &occluded) in self.carried.iter().zip(&self.occluded) {
-            if !occluded {
-                radiance[sample] += carried;
-            }
+        for ((&sample, &carried), &occluded) in
+            self.samples.iter().zip(&self.carried).zip(&self.occluded)
+        {
+            radiance[sample as usize] += if occluded { Spectrum::BLACK } else { carried };
         }
         let count = self.rays.len() as u64;
         self.rays.clear();
+        self.samples.clear();
         self.carried.clear();
         count
     }

@@ -17,6 +17,16 @@ impl PointLight {
     pub fn new(position: Vec3, intensity: Spectrum) -> Self {
         Self { position, intensity }
     }
+
+    #[inline]
+    pub(crate) fn position(&self) -> Vec3 {
+        self.position
+    }
+
+    #[inline]
+    pub(crate) fn intensity(&self) -> Spectrum {
+        self.intensity
+    }
 }
 
 impl Light for PointLight {

@@ -35,6 +35,15 @@ impl MatteMaterial {
     pub fn with_bump(self, displacement: impl Into<TextureHandle<f32>>) -> Self {
         Self { bump: Some(displacement.into()), ..self }
     }
+
+    /// The one lobe that it has at every hit, if that is so.
+    pub(crate) fn plain(&self) -> Option<LambertianReflection> {
+        let kd = self.kd.constant()?;
+        let smooth = self.sigma.as_ref().is_none_or(|sigma| sigma.constant() == Some(0.0));
+        let plain = smooth && self.bump.is_none() && kd.is_finite();
+        let r = kd.clamp(0.0, 1.0);
+        (plain && !r.is_black()).then(|| LambertianReflection::new(r))
+    }
 }
 
 impl Material for MatteMaterial {

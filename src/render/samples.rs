@@ -1,4 +1,4 @@
-//! [`Samples`]: all samples of a pass over a tile, one by one.
+//! [`Samples`]: all samples of a pass over a tile.
 
 use std::ops::Range;
 
@@ -26,29 +26,35 @@ impl Samples {
     pub fn is_empty(&self) -> bool {
         self.next.pixel.y >= self.window.max.y
     }
-}
 
-impl Iterator for Samples {
-    type Item = SampleId;
+    /// Hands out the next `most`, or as many as there are, in place of what `ids` holds.
+    pub fn fill(&mut self, most: usize, ids: &mut Vec<SampleId>) {
+        ids.clear();
+        while ids.len() < most && !self.is_empty() {
+            // The samples of one set differ in nothing but their index.
+            let left = u32::try_from(most - ids.len()).unwrap_or(u32::MAX);
+            let first = self.next;
+            let count = (self.pass.end - first.index).min(left);
+            ids.extend((0..count).map(|i| SampleId { index: first.index + i, ..first }));
+            self.advance(count);
+        }
+    }
 
-    #[inline]
-    fn next(&mut self) -> Option<SampleId> {
-        if self.is_empty() {
-            return None;
+    /// Goes on by `count` samples, at most those that are left of the set.
+    fn advance(&mut self, count: u32) {
+        self.next.index += count;
+        if self.next.index < self.pass.end {
+            return;
         }
-        let id = self.next;
-        self.next.index += 1;
-        if self.next.index == self.pass.end {
-            self.next.index = self.pass.start;
-            self.next.set += 1;
-            if self.next.set == self.sets {
-                self.next.set = 0;
-                self.next.pixel.x += 1;
-                if self.next.pixel.x == self.window.max.x {
-                    self.next.pixel = UVec2::new(self.window.min.x, id.pixel.y + 1);
-                }
-            }
+        self.next.index = self.pass.start;
+        self.next.set += 1;
+        if self.next.set < self.sets {
+            return;
         }
-        Some(id)
+        self.next.set = 0;
+        self.next.pixel.x += 1;
+        if self.next.pixel.x == self.window.max.x {
+            self.next.pixel = UVec2::new(self.window.min.x, self.next.pixel.y + 1);
+        }
     }
 }

@@ -9,7 +9,7 @@ use super::samples::Samples;
 use crate::bxdf::{BxdfFlags, TransportMode};
 use crate::film::{Film, FilmContents, FilmError, Window};
 use crate::integrator::{Counters, Integrator, Wave};
-use crate::sampling::Sampler;
+use crate::sampling::{SampleId, Sampler};
 use crate::scene::Scene;
 
 /// How many samples go through the integrator together: enough for batches to pay, few enough for
@@ -62,14 +62,22 @@ impl<'a> Worker<'a> {
         self.tile.reset(window);
         let mut samples = Samples::new(window, self.sets, pass.clone());
         while !samples.is_empty() {
-            self.wave.begin(self.scene, self.sampler, samples.by_ref().take(WAVE));
+            samples.fill(WAVE, &mut self.wave.ids);
+            self.wave.begin(self.scene, self.sampler);
             self.integrator.shade(self.scene, self.sampler, &mut self.wave);
-            for (id, &radiance) in self.wave.ids.iter().zip(&self.wave.radiance) {
-                self.tile.add_sample(id.pixel, id.set, radiance);
-            }
+            self.add_samples();
             if self.tile.has_layers() {
                 self.add_first_hits();
             }
+        }
+    }
+
+    fn add_samples(&mut self) {
+        let mut radiance = &self.wave.radiance[..];
+        for of_set in SampleId::sets(&self.wave.ids) {
+            let (samples, rest) = radiance.split_at(of_set.len());
+            self.tile.add_samples(of_set[0].pixel, of_set[0].set, samples);
+            radiance = rest;
         }
     }
 

@@ -9,10 +9,21 @@ use super::SampleId;
 /// pixels of one seed would be those of the next in another order.
 #[inline]
 pub fn hash(mixed_seed: u64, id: SampleId, dimension: u32) -> u64 {
+    hash_in_set(hash_set(mixed_seed, id), id.index, dimension)
+}
+
+/// The part of [`hash`] that all samples of a set share.
+#[inline]
+pub fn hash_set(mixed_seed: u64, id: SampleId) -> u64 {
     let pixel = mix(mixed_seed ^ (u64::from(id.pixel.x) << 32 | u64::from(id.pixel.y)));
     // Most pixels have one set: it costs no round.
-    let set = if id.set == 0 { pixel } else { mix(pixel ^ u64::from(id.set)) };
-    mix(set.wrapping_add(u64::from(id.index) << 32 | u64::from(dimension)))
+    if id.set == 0 { pixel } else { mix(pixel ^ u64::from(id.set)) }
+}
+
+/// The rest of [`hash`].
+#[inline]
+pub fn hash_in_set(set: u64, index: u32, dimension: u32) -> u64 {
+    mix(set.wrapping_add(u64::from(index) << 32 | u64::from(dimension)))
 }
 
 /// A bijection of 64-bit numbers that changes each output bit with probability 1/2 for every changed

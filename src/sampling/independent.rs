@@ -2,7 +2,7 @@
 
 use glam::Vec2;
 
-use super::hash::{hash, mix, unit_float};
+use super::hash::{hash, hash_in_set, hash_set, mix, unit_float};
 use super::{SampleId, Sampler};
 
 /// Uniform random numbers that know nothing of each other. Error falls with 1/√n.
@@ -16,6 +16,14 @@ impl IndependentSampler {
     pub fn new(seed: u64) -> Self {
         Self { mixed_seed: mix(seed) }
     }
+
+    /// Calls `each` for the samples of each set in a row, with what they share of the hash.
+    #[inline]
+    fn for_sets(&self, ids: &[SampleId], mut each: impl FnMut(u64, &[SampleId])) {
+        for of_set in SampleId::sets(ids) {
+            each(hash_set(self.mixed_seed, of_set[0]), of_set);
+        }
+    }
 }
 
 impl Sampler for IndependentSampler {
@@ -25,12 +33,35 @@ impl Sampler for IndependentSampler {
 
     #[inline]
     fn get_1d(&self, id: SampleId, dimension: u32) -> f32 {
-        unit_float((hash(self.mixed_seed, id, dimension) >> 32) as u32)
+        number(hash(self.mixed_seed, id, dimension))
     }
 
     #[inline]
     fn get_2d(&self, id: SampleId, dimension: u32) -> Vec2 {
-        let bits = hash(self.mixed_seed, id, dimension);
-        Vec2::new(unit_float((bits >> 32) as u32), unit_float(bits as u32))
+        point(hash(self.mixed_seed, id, dimension))
     }
+
+    fn fill_1d(&self, ids: &[SampleId], dimension: u32, values: &mut Vec<f32>) {
+        values.clear();
+        self.for_sets(ids, |set, of_set| {
+            values.extend(of_set.iter().map(|id| number(hash_in_set(set, id.index, dimension))));
+        });
+    }
+
+    fn fill_2d(&self, ids: &[SampleId], dimension: u32, points: &mut Vec<Vec2>) {
+        points.clear();
+        self.for_sets(ids, |set, of_set| {
+            points.extend(of_set.iter().map(|id| point(hash_in_set(set, id.index, dimension))));
+        });
+    }
+}
+
+#[inline]
+fn number(bits: u64) -> f32 {
+    unit_float((bits >> 32) as u32)
+}
+
+#[inline]
+fn point(bits: u64) -> Vec2 {
+    Vec2::new(unit_float((bits >> 32) as u32), unit_float(bits as u32))
 }

@@ -1,5 +1,6 @@
 //! [`SceneBuilder`]: scenes without a file.
 
+use std::any::Any;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Instant;
@@ -7,9 +8,10 @@ use std::time::Instant;
 use super::{Emission, FilmSettings, IntegratorSettings, SamplerSettings, Scene, Shape};
 use crate::Spectrum;
 use crate::accel::Accel;
+use crate::bxdf::LambertianReflection;
 use crate::camera::{Camera, CameraError, CameraSettings};
 use crate::film::{Display, Filter, FilterError, FilterSampler, Window};
-use crate::light::{AreaLight, Light};
+use crate::light::{AreaLight, Light, PointLight};
 use crate::material::{Material, MatteMaterial};
 use crate::shape::{MeshError, TriangleMesh};
 
@@ -55,6 +57,9 @@ struct NewShape {
     emission: Option<Emission>,
 }
 
+/// A material, with its lobe if it has one and the same everywhere.
+type NewMaterial = (Arc<dyn Material>, Option<LambertianReflection>);
+
 /// Collects a scene part by part, in any order, and checks it as a whole at the end.
 #[derive(Default)]
 pub struct SceneBuilder {
@@ -62,9 +67,10 @@ pub struct SceneBuilder {
     film: FilmSettings,
     sampler: SamplerSettings,
     integrator: IntegratorSettings,
-    materials: BTreeMap<String, Arc<dyn Material>>,
+    materials: BTreeMap<String, NewMaterial>,
     shapes: Vec<NewShape>,
     lights: Vec<Arc<dyn Light>>,
+    points: Vec<Option<PointLight>>,
 }
 
 impl SceneBuilder {
@@ -113,13 +119,16 @@ impl SceneBuilder {
     }
 
     /// Adds a material; one of the same name is replaced.
-    pub fn material(self, name: impl Into<String>, material: impl Material + 'static) -> Self {
-        self.shared_material(name, Arc::new(material))
+    pub fn material(mut self, name: impl Into<String>, material: impl Material + 'static) -> Self {
+        let matte = (&material as &dyn Any).downcast_ref::<MatteMaterial>();
+        let plain = matte.and_then(MatteMaterial::plain);
+        self.materials.insert(name.into(), (Arc::new(material), plain));
+        self
     }
 
     /// Adds a material that may be held elsewhere too.
     pub fn shared_material(mut self, name: impl Into<String>, material: Arc<dyn Material>) -> Self {
-        self.materials.insert(name.into(), material);
+        self.materials.insert(name.into(), (material, None));
         self
     }
 
@@ -162,6 +171,7 @@ impl SceneBuilder {
 
     /// Adds a light.
     pub fn light(mut self, light: impl Light + 'static) -> Self {
+        self.points.push((&light as &dyn Any).downcast_ref().copied());
         self.lights.push(Arc::new(light));
         self
     }
@@ -196,13 +206,14 @@ impl SceneBuilder {
         let mut lights = self.lights;
         for NewShape { name, mesh, material, emission } in self.shapes {
             mesh.check().map_err(|error| SceneError::Mesh(name.clone(), error))?;
-            let material = match material {
+            let (material, lobe) = match material {
                 Some(material) => match self.materials.get(&material) {
-                    Some(found) => Arc::clone(found),
+                    Some(found) => found.clone(),
                     None => return Err(SceneError::UnknownMaterial { shape: name, material }),
                 },
-                None => Arc::new(MatteMaterial::new(Spectrum::BLACK)),
+                None => (Arc::new(MatteMaterial::new(Spectrum::BLACK)) as _, None),
             };
+            let plain = lobe.filter(|_| mesh.normals.is_empty());
             // A mesh without area can neither be seen nor shine.
             let light = emission
                 .and_then(|Emission { radiance, two_sided }| {
@@ -212,13 +223,14 @@ impl SceneBuilder {
                     lights.push(Arc::new(light));
                     lights.len() - 1
                 });
-            shapes.push(Shape { name, material, light });
+            shapes.push(Shape { name, material, light, plain });
             meshes.push(mesh);
         }
         let triangles = meshes.iter().map(|mesh| mesh.indices.len()).sum();
         if triangles > Accel::MOST_TRIANGLES {
             return Err(SceneError::TooManyTriangles(triangles));
         }
+        let is_plain = shapes.iter().all(|shape| shape.plain.is_some());
         let start = Instant::now();
         let accel = Accel::build(&meshes);
         Ok(Scene {
@@ -231,6 +243,8 @@ impl SceneBuilder {
             meshes,
             filter: FilterSampler::new(self.film.filter)?,
             lights,
+            points: self.points,
+            is_plain,
             accel,
             build_seconds: start.elapsed().as_secs_f64(),
         })

@@ -12,12 +12,15 @@ pub use settings::{
     Emission, FilmSettings, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings,
 };
 
+use glam::Vec3;
+
 use crate::accel::{Accel, Hit};
+use crate::bxdf::LambertianReflection;
 use crate::camera::{Camera, CameraSettings};
 use crate::film::FilterSampler;
 use crate::geometry::Ray;
 use crate::interaction::SurfaceInteraction;
-use crate::light::{BoundingSphere, Light};
+use crate::light::{BoundingSphere, Light, PointLight};
 use crate::material::Material;
 use crate::shape::TriangleMesh;
 
@@ -55,6 +58,9 @@ pub struct Scene {
     shapes: Vec<Shape>,
     meshes: Vec<TriangleMesh>,
     lights: Vec<Arc<dyn Light>>,
+    /// By light: those that are points. It may be shorter.
+    points: Vec<Option<PointLight>>,
+    is_plain: bool,
     accel: Accel,
     build_seconds: f64,
 }
@@ -65,6 +71,8 @@ struct Shape {
     material: Arc<dyn Material>,
     /// The number of the light that it is.
     light: Option<usize>,
+    /// What it reflects, if that takes no more than its plane and this to know.
+    plain: Option<LambertianReflection>,
 }
 
 impl Scene {
@@ -146,6 +154,35 @@ impl Scene {
     /// The numbers of the lights that surfaces are.
     pub fn lights_on_surfaces(&self) -> impl Iterator<Item = usize> {
         self.shapes.iter().filter_map(|shape| shape.light)
+    }
+
+    /// The point light with this number, if it is one.
+    pub(crate) fn point_light(&self, number: usize) -> Option<PointLight> {
+        self.points.get(number).copied().flatten()
+    }
+
+    /// The only lobe that the surface has at a hit, where it has a constant one on flat triangles. A miss
+    /// has none.
+    #[inline]
+    pub(crate) fn plain(&self, hit: &Hit) -> Option<&LambertianReflection> {
+        self.shapes.get(hit.shape as usize)?.plain.as_ref()
+    }
+
+    /// Whether all of its surfaces are of that kind.
+    #[inline]
+    pub(crate) fn is_plain(&self) -> bool {
+        self.is_plain
+    }
+
+    /// The corners of the triangle that was hit.
+    ///
+    /// # Panics
+    /// Like [`Scene::interaction`].
+    #[inline(always)]
+    pub(crate) fn corners(&self, hit: &Hit) -> [&Vec3; 3] {
+        let TriangleMesh { positions, indices, .. } = &self.meshes[hit.shape as usize];
+        let [a, b, c] = indices[hit.triangle as usize];
+        [&positions[a as usize], &positions[b as usize], &positions[c as usize]]
     }
 
     /// How long the tree took to build, in seconds.

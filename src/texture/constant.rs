@@ -14,6 +14,10 @@ impl<T> ConstantTexture<T> {
     pub const fn new(value: T) -> Self {
         Self { value }
     }
+
+    pub(super) const fn value(&self) -> &T {
+        &self.value
+    }
 }
 
 impl<T: Copy + Send + Sync> Texture<T> for ConstantTexture<T> {

@@ -50,6 +50,14 @@ impl<T: Copy + Send + Sync> TextureHandle<T> {
             Self::Shared(texture) => texture.evaluate(si),
         }
     }
+
+    /// The value if it is the same everywhere.
+    pub(crate) fn constant(&self) -> Option<T> {
+        match self {
+            Self::Constant(texture) => Some(*texture.value()),
+            Self::Shared(_) => None,
+        }
+    }
 }
 
 impl<T> From<ConstantTexture<T>> for TextureHandle<T> {

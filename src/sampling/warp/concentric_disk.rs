@@ -6,7 +6,9 @@
 
 use std::f32::consts::{FRAC_1_PI, FRAC_PI_4};
 
-use glam::{Vec2, Vec2Swizzles};
+use glam::{Vec2, Vec2Swizzles, Vec4};
+
+use crate::geometry::four::four;
 
 /// A point of the unit disk.
 #[inline]
@@ -28,6 +30,30 @@ pub(super) fn polar(u: Vec2) -> (f32, Vec2) {
     } else {
         (0.0, Vec2::X)
     }
+}
+
+/// Four times [`polar`].
+#[inline(always)]
+pub(super) fn polar_x4(u: [Vec2; 4]) -> (Vec4, [Vec4; 2]) {
+    let x = 2.0 * Vec4::from_array(four(|i| u[i].x)) - Vec4::ONE;
+    let y = 2.0 * Vec4::from_array(four(|i| u[i].y)) - Vec4::ONE;
+    let x_larger = x.abs().cmpgt(y.abs());
+    let r = Vec4::select(x_larger, x, y);
+    let center = r.cmpeq(Vec4::ZERO);
+    let share = Vec4::select(x_larger, y, x) / Vec4::select(center, Vec4::ONE, r);
+    let [cos, sin] = eighth_turn_x4(share);
+    let swap = x_larger | center;
+    (r, [Vec4::select(swap, cos, sin), Vec4::select(swap, sin, cos)])
+}
+
+/// Four times [`eighth_turn`].
+#[inline(always)]
+fn eighth_turn_x4(share: Vec4) -> [Vec4; 2] {
+    let x = FRAC_PI_4 * share;
+    let x2 = x * x;
+    let cos = 1.0 + x2 * (-0.5 + x2 * (C4 + x2 * (C6 + x2 * C8)));
+    let sin = x + x * x2 * (S3 + x2 * (S5 + x2 * (S7 + x2 * S9)));
+    [cos, sin]
 }
 
 /// The unit vector at the angle π/4 · `share`, for a share in `[-1, 1]`.

@@ -10,6 +10,7 @@ use std::f32::consts::FRAC_1_PI;
 use glam::{Vec2, Vec3};
 
 use super::concentric_disk;
+use crate::geometry::four::Vec3x4;
 
 /// A unit vector with z ≥ 0; z = 0 only where u is on the border of the square.
 #[inline]
@@ -17,6 +18,13 @@ pub fn sample(u: Vec2) -> Vec3 {
     let (r, direction) = concentric_disk::polar(u);
     // (1 - r)(1 + r), not 1 - x² - y²: grazing directions keep their digits and stay above the surface.
     (r * direction).extend(((1.0 - r) * (1.0 + r)).sqrt())
+}
+
+/// Four times [`sample`].
+#[inline(always)]
+pub(crate) fn sample_x4(u: [Vec2; 4]) -> Vec3x4 {
+    let (r, [x, y]) = concentric_disk::polar_x4(u);
+    Vec3x4 { x: r * x, y: r * y, z: ((1.0 - r) * (1.0 + r)).sqrt() }
 }
 
 /// Density over solid angle, cos θ / π; zero below the horizon.

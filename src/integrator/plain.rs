@@ -1,0 +1,150 @@
+//! [`PlainHits`]: the most common hits by far, four at a time.
+
+use glam::{BVec4A, Vec2, Vec3, Vec4};
+
+use super::paths::Path;
+use crate::Spectrum;
+use crate::accel::Hit;
+use crate::bxdf::BxDF;
+use crate::geometry::Ray;
+use crate::geometry::four::{BoundedPointx4, Framex4, Vec3x4, four, three, triangle_normals};
+use crate::sampling::cosine_hemisphere;
+use crate::scene::Scene;
+
+/// How many hits are worked on together: what is known of them stays in the first-level cache.
+pub const BLOCK: usize = 64;
+
+/// What has to be fetched for hits on flat triangles with one constant Lambertian lobe, each number in a row
+/// of its own.
+pub struct Fetched {
+    /// By corner and axis.
+    corners: [[[f32; BLOCK]; 3]; 3],
+    weights: [[f32; BLOCK]; 3],
+    d: [[f32; BLOCK]; 3],
+    /// The value of the lobe.
+    f: [Spectrum; BLOCK],
+}
+
+impl Fetched {
+    /// Room for a block.
+    pub fn new() -> Self {
+        let rows = [[0.0; BLOCK]; 3];
+        Self { corners: [rows; 3], weights: rows, d: rows, f: [Spectrum::BLACK; BLOCK] }
+    }
+
+    /// Fetches the i-th hit of a block.
+    ///
+    /// # Panics
+    /// If it is of another kind.
+    #[inline(always)]
+    pub fn set(&mut self, i: usize, scene: &Scene, ray: &Ray, hit: &Hit) {
+        let lobe = scene.plain(hit).expect("only plain hits are handed in");
+        // It looks at no directions.
+        self.f[i] = lobe.f(Vec3::Z, Vec3::Z);
+        for (rows, corner) in self.corners.iter_mut().zip(scene.corners(hit)) {
+            set(rows, i, corner.to_array());
+        }
+        set(&mut self.weights, i, hit.b);
+        set(&mut self.d, i, ray.d.to_array());
+    }
+}
+
+#[inline(always)]
+fn set(rows: &mut [[f32; BLOCK]; 3], i: usize, values: [f32; 3]) {
+    for (row, value) in rows.iter_mut().zip(values) {
+        row[i] = value;
+    }
+}
+
+/// Four neighbours in each of three rows.
+#[inline(always)]
+fn get(rows: &[[f32; BLOCK]; 3], four: usize) -> Vec3x4 {
+    let [x, y, z] = three(|i| Vec4::from_array(rows[i].as_chunks::<4>().0[four]));
+    Vec3x4 { x, y, z }
+}
+
+/// Four such hits.
+///
+/// All that is found here is found by the same operations as with a [`SurfaceInteraction`] and a [`Bsdf`],
+/// in the same order, so that both give the same bits.
+///
+/// [`SurfaceInteraction`]: crate::interaction::SurfaceInteraction
+/// [`Bsdf`]: crate::bxdf::Bsdf
+pub struct PlainHits<'a> {
+    pub paths: [&'a Path; 4],
+    pub at: BoundedPointx4,
+    pub n: Vec3x4,
+    /// Whether all normals could be found in f32. If not, nothing here is of use.
+    pub sound: bool,
+    f: [Spectrum; 4],
+    wo_n: Vec4,
+}
+
+impl<'a> PlainHits<'a> {
+    /// The hits of a block that have these paths, of which `four` fours go before.
+    #[inline(always)]
+    pub fn new(fetched: &Fetched, four: usize, paths: [&'a Path; 4]) -> Self {
+        let corners = three(|corner| get(&fetched.corners[corner], four));
+        let Vec3x4 { x, y, z } = get(&fetched.weights, four);
+        let (n, sound) = triangle_normals(corners);
+        let at = BoundedPointx4::on_triangles(corners, [x, y, z]);
+        let wo_n = -get(&fetched.d, four).dot(n);
+        Self { paths, at, n, sound, f: fetched.f.as_chunks::<4>().0[four], wo_n }
+    }
+
+    /// Which hits reflect light from `wi`, and the cosines between these and the normals.
+    #[inline(always)]
+    pub fn reflect(&self, wi: Vec3x4) -> (BVec4A, Vec4) {
+        let wi_n = wi.dot(self.n);
+        let (above, wo_above) = (wi_n.cmpgt(Vec4::ZERO), self.wo_n.cmpgt(Vec4::ZERO));
+        (!(above ^ wo_above) & self.wo_n.cmpne(Vec4::ZERO), wi_n)
+    }
+
+    /// Density of the lobe's directions, by their cosines with the normals.
+    #[inline(always)]
+    pub fn pdf(&self, wi_n: Vec4) -> Vec4 {
+        let zero = Vec4::ZERO;
+        let same =
+            (self.wo_n.cmpgt(zero) & wi_n.cmpgt(zero)) | (self.wo_n.cmplt(zero) & wi_n.cmplt(zero));
+        Vec4::select(same, wi_n.abs() * Vec4::splat(std::f32::consts::FRAC_1_PI), zero)
+    }
+
+    /// What the paths carry times the lobes.
+    #[inline(always)]
+    pub fn reflected(&self) -> [Spectrum; 4] {
+        four(|i| self.paths[i].beta * self.f[i])
+    }
+
+    /// The paths with one more reflection, and the directions in which they go on. Bit i of the mask is for the
+    /// i-th.
+    #[inline(always)]
+    pub fn step(&self, u: [Vec2; 4]) -> (u32, [Path; 4], Vec3x4) {
+        let mut local = cosine_hemisphere::sample_x4(u);
+        local.z = Vec4::select(self.wo_n.cmplt(Vec4::ZERO), -local.z, local.z);
+        let pdf = self.pdf(local.z);
+        let wi = Framex4::from_normals(self.n).to_world(local);
+        let (reflect, wi_n) = self.reflect(wi);
+        let mut mask = (reflect & pdf.cmpgt(Vec4::ZERO)).bitmask();
+        let factor = (wi_n.abs() / pdf).to_array();
+        let reflected = self.reflected();
+        let p = self.at.p.rows(pdf);
+        let paths = four(|i| {
+            let beta = reflected[i] * factor[i];
+            mask &= !(u32::from(beta.is_black()) << i);
+            let path = self.paths[i];
+            Path { beta, p: p[i].truncate(), pdf: p[i].w, ..*path }
+        });
+        (mask, paths, wi)
+    }
+}
+
+/// Adds the values whose bits in the mask are set.
+///
+/// All are written, and the next one over those that do not count: a branch would be hard to foresee.
+#[inline(always)]
+pub fn push_x4<T: Copy>(to: &mut Vec<T>, mask: u32, values: &[T; 4]) {
+    for (i, &value) in values.iter().enumerate() {
+        to.push(value);
+        to.truncate(to.len() - (!mask >> i & 1) as usize);
+    }
+}

@@ -1,0 +1,100 @@
+//! [`LightSamples`]: light that may arrive at four hits.
+
+use glam::{BVec4A, Vec2, Vec3, Vec4};
+
+use super::plain::PlainHits;
+use super::transport::Transport;
+use crate::Spectrum;
+use crate::geometry::Ray;
+use crate::geometry::float::ONE_MINUS_EPSILON;
+use crate::geometry::four::{Vec3x4, four, rays_x4};
+use crate::light::PointLight;
+use crate::scene::Scene;
+
+/// Four of [`LightSample`](crate::light::LightSample), of which some may be missing.
+pub struct LightSamples {
+    exists: BVec4A,
+    li: [Spectrum; 4],
+    wi: Vec3x4,
+    /// With the probability of the light.
+    pdf: Vec4,
+    /// Where it comes from, if `is_near`.
+    from: Vec3x4,
+    is_near: BVec4A,
+    /// Whether reflection may find the same light.
+    weighed: BVec4A,
+}
+
+impl LightSamples {
+    /// Samples of one point light for the points `p`.
+    #[inline(always)]
+    pub fn of_point(light: PointLight, probability: f32, p: Vec3x4) -> Self {
+        let from = Vec3x4::splat(light.position());
+        let to_light = from - p;
+        let distance2 = to_light.length_squared();
+        let falloff = distance2.to_array();
+        Self {
+            exists: distance2.cmpgt(Vec4::ZERO),
+            li: four(|i| light.intensity() / falloff[i]),
+            wi: to_light.divided_by(distance2.sqrt()),
+            pdf: Vec4::splat(probability),
+            from,
+            is_near: BVec4A::TRUE,
+            weighed: BVec4A::FALSE,
+        }
+    }
+
+    /// A sample for each of the points `p`, of the light with the number beside its place on the light.
+    pub fn of_any(
+        transport: &Transport,
+        scene: &Scene,
+        p: Vec3x4,
+        drawn: [(usize, Vec2); 4],
+    ) -> Self {
+        let p = p.rows(Vec4::ZERO);
+        let (mut exists, mut is_near, mut weighed) = ([false; 4], [false; 4], [false; 4]);
+        let (mut li, mut pdf) = ([Spectrum::BLACK; 4], [1.0; 4]);
+        let (mut wi, mut from) = ([Vec3::Z; 4], [Vec3::ZERO; 4]);
+        for (i, (number, u)) in drawn.into_iter().enumerate() {
+            let light = &*scene.lights()[number];
+            let Some(sample) = light.sample_li(p[i].truncate(), u) else { continue };
+            exists[i] = true;
+            li[i] = sample.li;
+            wi[i] = sample.wi;
+            pdf[i] = sample.pdf * transport.probability[number];
+            is_near[i] = sample.from.is_some();
+            from[i] = sample.from.unwrap_or_default();
+            weighed[i] = transport.finds && transport.visible[number];
+        }
+        Self {
+            exists: BVec4A::from_array(exists),
+            li,
+            wi: Vec3x4::new(four(|i| &wi[i])),
+            pdf: Vec4::from_array(pdf),
+            from: Vec3x4::new(four(|i| &from[i])),
+            is_near: BVec4A::from_array(is_near),
+            weighed: BVec4A::from_array(weighed),
+        }
+    }
+
+    /// Shadow rays, and what each carries. Bit i of the mask is for the i-th.
+    #[inline(always)]
+    pub fn reflected(&self, hits: &PlainHits) -> (u32, [Ray; 4], [Spectrum; 4]) {
+        let (reflect, wi_n) = hits.reflect(self.wi);
+        let mut weight = Vec4::ONE;
+        if self.weighed.any() {
+            let ratio = hits.pdf(wi_n) / self.pdf;
+            let weighed = 1.0 / (1.0 + ratio * ratio);
+            weight = Vec4::select(self.weighed, weighed, weight);
+        }
+        let factor = (wi_n.abs() * weight / self.pdf).to_array();
+        let reflected = hits.reflected();
+        let carried = four(|i| reflected[i] * self.li[i] * factor[i]);
+        let towards = Vec3x4::select(self.is_near, self.from - hits.at.p, self.wi);
+        let o = hits.at.ray_origins(hits.n, towards);
+        let d = Vec3x4::select(self.is_near, self.from - o, self.wi);
+        let t_max =
+            Vec4::select(self.is_near, Vec4::splat(ONE_MINUS_EPSILON), Vec4::splat(f32::INFINITY));
+        ((reflect & self.exists).bitmask(), rays_x4(o, d, t_max), carried)
+    }
+}
