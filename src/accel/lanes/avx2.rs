@@ -2,7 +2,10 @@
 
 use std::arch::x86_64::*;
 
-use super::{LANES, Lanes, Mask, Places};
+use super::eight::Eight;
+use super::halves::{CHOSEN, FLIPS};
+use super::{LANES, Lanes, Mask, Places, Vector};
+use crate::accel::stack::Stack;
 use crate::geometry::Ray;
 
 /// Sixteen f32 in two registers. Only code that [`crate::accel::Path::Avx2`] leads to may touch one:
@@ -36,10 +39,10 @@ macro_rules! comparisons {
     )*};
 }
 
-impl Lanes for Avx2 {
-    type Places = Places256;
+impl Vector for Avx2 {
+    const LANES: usize = LANES;
 
-    const BEAMS: bool = true;
+    type Places = Places256;
 
     instructions! {
         add = _mm256_add_ps;
@@ -51,7 +54,6 @@ impl Lanes for Avx2 {
     }
     comparisons! {
         le = _CMP_LE_OQ;
-        lt = _CMP_LT_OQ;
         eq = _CMP_EQ_OQ;
     }
     #[inline(always)]
@@ -60,14 +62,41 @@ impl Lanes for Avx2 {
         unsafe { Self(_mm256_set1_ps(x), _mm256_set1_ps(x)) }
     }
     #[inline(always)]
-    fn load(x: &[f32; LANES]) -> Self {
-        // SAFETY: the array has all lanes.
-        unsafe { Self::load_from(x.as_ptr()) }
-    }
-    #[inline(always)]
     unsafe fn load_from(x: *const f32) -> Self {
         // SAFETY: as above; the caller promises the numbers.
         unsafe { Self(_mm256_loadu_ps(x), _mm256_loadu_ps(x.add(8))) }
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        // SAFETY: as above.
+        unsafe {
+            let sign = _mm256_set1_ps(-0.0);
+            Self(_mm256_andnot_ps(sign, self.0), _mm256_andnot_ps(sign, self.1))
+        }
+    }
+    #[inline(always)]
+    fn lane(self, lane: u32) -> f32 {
+        // SAFETY: as above.
+        unsafe { _mm256_cvtss_f32(self.spread(lane).0) }
+    }
+    #[inline(always)]
+    fn at(self, places: Places256) -> Self {
+        Self(at(self, places.0), at(self, places.1))
+    }
+}
+
+impl Lanes for Avx2 {
+    type Narrow = Eight;
+
+    const BEAMS: bool = true;
+
+    comparisons! {
+        lt = _CMP_LT_OQ;
+    }
+    #[inline(always)]
+    fn load(x: &[f32; LANES]) -> Self {
+        // SAFETY: the array has all lanes.
+        unsafe { Self::load_from(x.as_ptr()) }
     }
     #[inline(always)]
     fn transposed(rays: &[Ray; LANES]) -> [Self; 8] {
@@ -85,14 +114,6 @@ impl Lanes for Avx2 {
             _mm256_storeu_ps(x.as_mut_ptr().add(8), self.1);
         }
         x
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        // SAFETY: as above.
-        unsafe {
-            let sign = _mm256_set1_ps(-0.0);
-            Self(_mm256_andnot_ps(sign, self.0), _mm256_andnot_ps(sign, self.1))
-        }
     }
     #[inline(always)]
     fn or(self, mask: Mask, other: Self) -> Self {
@@ -125,11 +146,6 @@ impl Lanes for Avx2 {
         }
     }
     #[inline(always)]
-    fn lane(self, lane: u32) -> f32 {
-        // SAFETY: as above.
-        unsafe { _mm256_cvtss_f32(self.spread(lane).0) }
-    }
-    #[inline(always)]
     fn spread(self, lane: u32) -> Self {
         let half = if lane < 8 { self.0 } else { self.1 };
         // SAFETY: as above.
@@ -139,8 +155,56 @@ impl Lanes for Avx2 {
         }
     }
     #[inline(always)]
-    fn at(self, places: Places256) -> Self {
-        Self(at(self, places.0), at(self, places.1))
+    fn entered(enter: Self, leave: Self, flip: u32) -> (Mask, Self) {
+        // Bits are flipped by a table, which is quicker than to flip both vectors.
+        // SAFETY: as above.
+        let [low, high] = unsafe {
+            let bits = |a, b| _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b));
+            [bits(enter.0, leave.0), bits(enter.1, leave.1)]
+        };
+        if low | high == 0 {
+            return (0, enter);
+        }
+        let flips = &FLIPS[flip as usize % 8];
+        let (low, high) = (flips[low as usize % 256], flips[high as usize % 256]);
+        let mask = Mask::from(low) | Mask::from(high) << 8;
+        (mask.rotate_left(flip & 8), enter)
+    }
+    #[inline(always)]
+    fn push(
+        self,
+        stack: &mut Stack,
+        len: usize,
+        mask: Mask,
+        children: &[u32; LANES],
+        flip: u32,
+    ) -> usize {
+        if mask == 0 {
+            return len;
+        }
+        // In halves, those first that come first when flipped.
+        let first = flip as usize & 8;
+        let enters = if first == 0 { [self.0, self.1] } else { [self.1, self.0] };
+        let (waiting, room) = stack.room(len);
+        let [low, high] = mask.to_le_bytes();
+        let low_count = low.count_ones() as usize;
+        // SAFETY: as above; the arrays have all lanes, and there are at most eight in the lower half. Lanes after
+        // those of the mask are overwritten by the next push, and never read.
+        unsafe {
+            let flip = _mm256_set1_epi32(flip as i32 & 7);
+            let mut put = |mask: u8, from: usize, enters: __m256, to: usize| {
+                let chosen = _mm_loadl_epi64(CHOSEN[usize::from(mask)].as_ptr().cast());
+                let lanes = _mm256_xor_si256(_mm256_cvtepu8_epi32(chosen), flip);
+                let children = _mm256_loadu_si256(children.as_ptr().add(from).cast());
+                let children = _mm256_permutevar8x32_epi32(children, lanes);
+                _mm256_storeu_si256(waiting.as_mut_ptr().add(to).cast(), children);
+                let enters = _mm256_permutevar8x32_ps(enters, lanes);
+                _mm256_storeu_ps(room.as_mut_ptr().add(to), enters);
+            };
+            put(low, first, enters[0], 0);
+            put(high, first ^ 8, enters[1], low_count);
+        }
+        len + mask.count_ones() as usize
     }
     #[inline(always)]
     fn flipped(self, flip: u32) -> Self {
