@@ -54,7 +54,7 @@ impl Path {
     /// vectors that leaves are tested with.
     pub(super) fn most_in_leaf(self) -> usize {
         match self {
-            Self::Avx2 => 7,
+            Self::Avx2 => 8,
             Self::Portable | Self::Avx512 => LANES,
         }
     }

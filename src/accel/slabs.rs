@@ -100,6 +100,7 @@ impl<L: Lanes> Slabs<L> {
     #[inline(always)]
     pub fn enters(&self, node: &Node) -> (Mask, L) {
         let (enter, leave) = self.interval(node);
-        L::entered(enter, leave, self.flip)
+        let (enter, leave) = (enter.turned(self.flip), leave.turned(self.flip));
+        (L::turned_mask(enter.le(leave), self.flip), enter)
     }
 }

@@ -150,17 +150,15 @@ impl Accel {
                 } else {
                     lanes_met(&Needle::<L>::new(&sheared, ray.t_min), leaf, ray.t_max)
                 };
-                {
-                    if !SURE && lanes != 0 {
-                        break 'nodes (leaf, lanes.trailing_zeros());
+                if !SURE && lanes != 0 {
+                    break 'nodes (leaf, lanes.trailing_zeros());
+                }
+                while lanes != 0 {
+                    let lane = lanes.trailing_zeros();
+                    if hit(&sheared, leaf, lane, ray.t_min, ray.t_max).is_some() {
+                        return Ok(true);
                     }
-                    while lanes != 0 {
-                        let lane = lanes.trailing_zeros();
-                        if hit(&sheared, leaf, lane, ray.t_min, ray.t_max).is_some() {
-                            return Ok(true);
-                        }
-                        lanes &= lanes - 1;
-                    }
+                    lanes &= lanes - 1;
                 }
                 match stack.pop(&mut waiting, start.waiting, f32::INFINITY) {
                     Some(next) => child = next,
@@ -217,6 +215,7 @@ impl Nearest {
     }
 }
 
+/// The triangles that a ray meets, or may meet.
 #[inline(always)]
 fn lanes_met<V: Vector>(needle: &Needle<V>, leaf: Leaf, t_max: f32) -> Mask {
     needle.meets(leaf, V::splat(t_max)).map_or(0, |met| met.lanes)

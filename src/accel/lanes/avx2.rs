@@ -2,8 +2,9 @@
 
 use std::arch::x86_64::*;
 
+use super::columns::columns;
 use super::eight::Eight;
-use super::halves::{CHOSEN, FLIPS};
+use super::halves::{flipped, push};
 use super::{LANES, Lanes, Mask, Places, Vector};
 use crate::accel::stack::Stack;
 use crate::geometry::Ray;
@@ -155,20 +156,16 @@ impl Lanes for Avx2 {
         }
     }
     #[inline(always)]
-    fn entered(enter: Self, leave: Self, flip: u32) -> (Mask, Self) {
-        // Bits are flipped by a table, which is quicker than to flip both vectors.
-        // SAFETY: as above.
-        let [low, high] = unsafe {
-            let bits = |a, b| _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b));
-            [bits(enter.0, leave.0), bits(enter.1, leave.1)]
-        };
-        if low | high == 0 {
-            return (0, enter);
-        }
-        let flips = &FLIPS[flip as usize % 8];
-        let (low, high) = (flips[low as usize % 256], flips[high as usize % 256]);
-        let mask = Mask::from(low) | Mask::from(high) << 8;
-        (mask.rotate_left(flip & 8), enter)
+    fn spread_narrow(self, lane: u32) -> Eight {
+        Eight(self.spread(lane).0)
+    }
+    #[inline(always)]
+    fn turned(self, _flip: u32) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn turned_mask(mask: Mask, flip: u32) -> Mask {
+        flipped(mask, flip)
     }
     #[inline(always)]
     fn push(
@@ -179,32 +176,22 @@ impl Lanes for Avx2 {
         children: &[u32; LANES],
         flip: u32,
     ) -> usize {
-        if mask == 0 {
-            return len;
-        }
-        // In halves, those first that come first when flipped.
-        let first = flip as usize & 8;
-        let enters = if first == 0 { [self.0, self.1] } else { [self.1, self.0] };
-        let (waiting, room) = stack.room(len);
-        let [low, high] = mask.to_le_bytes();
-        let low_count = low.count_ones() as usize;
-        // SAFETY: as above; the arrays have all lanes, and there are at most eight in the lower half. Lanes after
-        // those of the mask are overwritten by the next push, and never read.
-        unsafe {
-            let flip = _mm256_set1_epi32(flip as i32 & 7);
-            let mut put = |mask: u8, from: usize, enters: __m256, to: usize| {
-                let chosen = _mm_loadl_epi64(CHOSEN[usize::from(mask)].as_ptr().cast());
-                let lanes = _mm256_xor_si256(_mm256_cvtepu8_epi32(chosen), flip);
-                let children = _mm256_loadu_si256(children.as_ptr().add(from).cast());
-                let children = _mm256_permutevar8x32_epi32(children, lanes);
-                _mm256_storeu_si256(waiting.as_mut_ptr().add(to).cast(), children);
-                let enters = _mm256_permutevar8x32_ps(enters, lanes);
-                _mm256_storeu_ps(room.as_mut_ptr().add(to), enters);
-            };
-            put(low, first, enters[0], 0);
-            put(high, first ^ 8, enters[1], low_count);
-        }
-        len + mask.count_ones() as usize
+        // SAFETY: as above; the array has all lanes.
+        let children = unsafe {
+            let children = children.as_ptr();
+            [_mm256_loadu_si256(children.cast()), _mm256_loadu_si256(children.add(8).cast())]
+        };
+        push(stack, len, mask, flip, children, [self.0, self.1])
+    }
+    #[inline(always)]
+    fn push_slots(self, stack: &mut Stack, len: usize, mask: Mask, first: u32, flip: u32) -> usize {
+        // SAFETY: as above.
+        let slots = unsafe {
+            let low = _mm256_set_epi32(7, 6, 5, 4, 3, 2, 1, 0);
+            let from = |first: u32| _mm256_add_epi32(low, _mm256_set1_epi32(first as i32));
+            [from(first), from(first + 8)]
+        };
+        push(stack, len, mask, flip, slots, [self.0, self.1])
     }
     #[inline(always)]
     fn flipped(self, flip: u32) -> Self {
@@ -226,40 +213,6 @@ fn lanes_of(mask: Mask) -> __m256 {
         let bits = _mm256_set_epi32(128, 64, 32, 16, 8, 4, 2, 1);
         let chosen = _mm256_and_si256(_mm256_set1_epi32(i32::from(mask)), bits);
         _mm256_castsi256_ps(_mm256_cmpeq_epi32(chosen, bits))
-    }
-}
-
-/// Origin, t_min, direction and t_max of eight rays.
-#[inline(always)]
-fn columns(rays: &[Ray]) -> [__m256; 8] {
-    assert_eq!(rays.len(), 8);
-    let numbers: *const f32 = rays.as_ptr().cast();
-    // SAFETY: called from above; a ray is eight f32 in order (`repr(C)`), and there are eight.
-    unsafe {
-        // Origin and t_min of a ray beside those of the fourth after it; and likewise of what follows.
-        let beside = |i: usize| {
-            let low = _mm256_castps128_ps256(_mm_loadu_ps(numbers.add(i)));
-            _mm256_insertf128_ps::<1>(low, _mm_loadu_ps(numbers.add(i + 32)))
-        };
-        let [ox, oy, oz, t_min] = four(beside(0), beside(8), beside(16), beside(24));
-        let [dx, dy, dz, t_max] = four(beside(4), beside(12), beside(20), beside(28));
-        [ox, oy, oz, t_min, dx, dy, dz, t_max]
-    }
-}
-
-/// The columns of the four-by-four matrices in each half of four rows.
-#[inline(always)]
-fn four(a: __m256, b: __m256, c: __m256, d: __m256) -> [__m256; 4] {
-    // SAFETY: takes or makes such vectors, for which the processor has the instructions.
-    unsafe {
-        let (ab, cd) = (_mm256_unpacklo_ps(a, b), _mm256_unpacklo_ps(c, d));
-        let (ab2, cd2) = (_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d));
-        [
-            _mm256_shuffle_ps::<0x44>(ab, cd),
-            _mm256_shuffle_ps::<0xee>(ab, cd),
-            _mm256_shuffle_ps::<0x44>(ab2, cd2),
-            _mm256_shuffle_ps::<0xee>(ab2, cd2),
-        ]
     }
 }
 

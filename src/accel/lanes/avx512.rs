@@ -142,6 +142,10 @@ impl Lanes for Avx512 {
         Self(unsafe { _mm512_permutexvar_ps(_mm512_set1_epi32(lane as i32), self.0) })
     }
     #[inline(always)]
+    fn spread_narrow(self, lane: u32) -> Self {
+        self.spread(lane)
+    }
+    #[inline(always)]
     fn flipped(self, flip: u32) -> Self {
         // SAFETY: as above.
         Self(unsafe { _mm512_permutexvar_ps(flips(flip), self.0) })

@@ -8,6 +8,8 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 #[cfg(target_arch = "x86_64")]
+mod columns;
+#[cfg(target_arch = "x86_64")]
 mod eight;
 #[cfg(target_arch = "x86_64")]
 mod halves;
@@ -97,17 +99,23 @@ pub trait Lanes: Vector {
     }
     /// The number in a lane in all lanes.
     fn spread(self, lane: u32) -> Self;
+    /// The same of fewer lanes.
+    fn spread_narrow(self, lane: u32) -> Self::Narrow;
     /// Lane `i` becomes lane `i ^ flip`.
     fn flipped(self, flip: u32) -> Self;
-    /// Where `enter <= leave`, in flipped lanes, and `enter` as [`Lanes::push`] takes it.
+    /// [`Lanes::flipped`] where that is quicker than to flip the masks of what is computed from it; else nothing.
     #[inline(always)]
-    fn entered(enter: Self, leave: Self, flip: u32) -> (Mask, Self) {
-        let (enter, leave) = (enter.flipped(flip), leave.flipped(flip));
-        (enter.le(leave), enter)
+    fn turned(self, flip: u32) -> Self {
+        self.flipped(flip)
     }
-    /// Puts the children in the lanes of `mask`, after lanes were flipped as by [`Lanes::flipped`], on the
-    /// stack, where `len` wait already, the lowest lane lowest. `self` says where the ray enters them, as
-    /// [`Lanes::entered`] gave it. How many wait then.
+    /// A mask of vectors that were [turned](Lanes::turned), with its lanes flipped.
+    #[inline(always)]
+    fn turned_mask(mask: Mask, _flip: u32) -> Mask {
+        mask
+    }
+    /// Puts the children in the lanes of `mask`, whose lanes are flipped, on the stack, where `len` wait already,
+    /// the lowest lane lowest. `self` says where the ray enters them, and is [turned](Lanes::turned). How many
+    /// wait then.
     #[inline(always)]
     fn push(
         self,
@@ -121,8 +129,7 @@ pub trait Lanes: Vector {
             children[(lane ^ flip) as usize % LANES]
         })
     }
-    /// Puts the slots of a node on the stack as [`Lanes::push`] does children, but `self` is flipped already: slot i
-    /// as `first` + i.
+    /// Puts the slots of a node on the stack as [`Lanes::push`] does children: slot i as `first` + i.
     #[inline(always)]
     fn push_slots(self, stack: &mut Stack, len: usize, mask: Mask, first: u32, flip: u32) -> usize {
         push_each(stack, len, mask, self.to_array(), |lane| first + (lane ^ flip))

@@ -128,6 +128,10 @@ impl Lanes for Portable {
         Self::splat(self.lane(lane))
     }
     #[inline(always)]
+    fn spread_narrow(self, lane: u32) -> Self {
+        self.spread(lane)
+    }
+    #[inline(always)]
     fn flipped(self, flip: u32) -> Self {
         Self(from_fn(|i| self.0[(i ^ flip as usize) % LANES]))
     }
