@@ -193,16 +193,6 @@ impl Lanes for Avx2 {
         };
         push(stack, len, mask, flip, slots, [self.0, self.1])
     }
-    #[inline(always)]
-    fn flipped(self, flip: u32) -> Self {
-        let (low, high) = if flip & 8 == 0 { (self.0, self.1) } else { (self.1, self.0) };
-        // SAFETY: as above.
-        unsafe {
-            let lanes = _mm256_set_epi32(7, 6, 5, 4, 3, 2, 1, 0);
-            let flips = _mm256_xor_si256(lanes, _mm256_set1_epi32(flip as i32 & 7));
-            Self(_mm256_permutevar8x32_ps(low, flips), _mm256_permutevar8x32_ps(high, flips))
-        }
-    }
 }
 
 /// All bits of the lanes of the lower half of a mask.

@@ -146,7 +146,7 @@ impl Lanes for Avx512 {
         self.spread(lane)
     }
     #[inline(always)]
-    fn flipped(self, flip: u32) -> Self {
+    fn turned(self, flip: u32) -> Self {
         // SAFETY: as above.
         Self(unsafe { _mm512_permutexvar_ps(flips(flip), self.0) })
     }

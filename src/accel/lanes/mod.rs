@@ -101,13 +101,9 @@ pub trait Lanes: Vector {
     fn spread(self, lane: u32) -> Self;
     /// The same of fewer lanes.
     fn spread_narrow(self, lane: u32) -> Self::Narrow;
-    /// Lane `i` becomes lane `i ^ flip`.
-    fn flipped(self, flip: u32) -> Self;
-    /// [`Lanes::flipped`] where that is quicker than to flip the masks of what is computed from it; else nothing.
-    #[inline(always)]
-    fn turned(self, flip: u32) -> Self {
-        self.flipped(flip)
-    }
+    /// Lane `i` becomes lane `i ^ flip`; but all stay where it is quicker to flip the masks of what is computed
+    /// from them.
+    fn turned(self, flip: u32) -> Self;
     /// A mask of vectors that were [turned](Lanes::turned), with its lanes flipped.
     #[inline(always)]
     fn turned_mask(mask: Mask, _flip: u32) -> Mask {

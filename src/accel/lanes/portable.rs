@@ -132,7 +132,7 @@ impl Lanes for Portable {
         self.spread(lane)
     }
     #[inline(always)]
-    fn flipped(self, flip: u32) -> Self {
+    fn turned(self, flip: u32) -> Self {
         Self(from_fn(|i| self.0[(i ^ flip as usize) % LANES]))
     }
 }
