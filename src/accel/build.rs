@@ -19,7 +19,7 @@ use crate::shape::TriangleMesh;
 ///
 /// A large scene is cut into parts. Over each, and in the end over what stands for the parts, obvhs builds a
 /// binary tree (PLOC, then reinsertion). The trees are collapsed to nodes of sixteen children and
-/// leaves of up to sixteen triangles, which rays are tested against sixteen at a time.
+/// leaves of up to sixteen triangles, or as many as the fastest [`Path`] tests at once.
 #[derive(Clone, Debug)]
 pub struct Accel {
     pub(super) nodes: Vec<Node>,
@@ -56,11 +56,12 @@ impl Accel {
         let source = Source::new(meshes);
         let Sorted { numbers, counts, price } = sort(&source, threads);
         // Build each part.
+        let path = Path::available().pop().unwrap_or(Path::Portable);
         let mut rest = &numbers[..];
         let tasks = counts.into_iter().map(|count| rest.split_off(..count).expect("all numbers"));
         let parts =
             parallel::map(threads, tasks.collect(), Workshop::default, |workshop, numbers| {
-                Part::new(workshop, &source, numbers, price)
+                Part::new(workshop, &source, numbers, price, path.most_in_leaf())
             });
         // Put them below one root.
         let (nodes, triangles, depth) = join(&parts);
@@ -73,7 +74,7 @@ impl Accel {
             bounds,
             largest_coordinate: bounds.largest_coordinate(),
             depth,
-            path: Path::available().pop().unwrap_or(Path::Portable),
+            path,
         }
     }
 

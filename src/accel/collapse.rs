@@ -40,7 +40,7 @@ pub struct Choices<'a> {
 struct Known {
     /// Where its choices begin, for k from 1 on.
     start: u32,
-    /// How many there are: one for each primitive, up to [`LANES`]; where all fits into a leaf, one for each
+    /// How many there are: one for each primitive, up to [`LANES`]; where all may be one leaf, one for each
     /// [`SMALL`] items at most.
     ways: u8,
     /// How much there is below it, up to one more than fits into a leaf.
@@ -58,8 +58,13 @@ pub const TOO_MANY: usize = LANES + 1;
 
 impl Collapse {
     /// Decides for all nodes of the tree. `items` says how many a primitive has; a leaf is taken to
-    /// have room for [`LANES`] of them, though it may refuse some.
-    pub fn decide<'a>(&'a mut self, tree: &'a Bvh2, items: impl Fn(u32) -> usize) -> Choices<'a> {
+    /// have room for `most_in_leaf` of them, no more than [`LANES`], though it may refuse some.
+    pub fn decide<'a>(
+        &'a mut self,
+        tree: &'a Bvh2,
+        most_in_leaf: usize,
+        items: impl Fn(u32) -> usize,
+    ) -> Choices<'a> {
         parents_first(tree, &mut self.order);
         self.known.resize(tree.nodes.len(), Known::default());
         self.choices.clear();
@@ -77,7 +82,7 @@ impl Collapse {
                 halves(node).map(|half| known[half as usize])
             };
             let inside = (left.items + right.items).min(TOO_MANY as u8);
-            let most = if usize::from(inside) > LANES {
+            let most = if usize::from(inside) > most_in_leaf {
                 LANES
             } else {
                 usize::from(inside.div_ceil(SMALL))
@@ -103,7 +108,7 @@ impl Collapse {
             // A node takes the best of all k.
             let split = best[2..=ways].iter().fold(f32::INFINITY, |a, &b| a.min(b));
             let as_node = area * NODE_COST + split;
-            let as_leaf = if usize::from(inside) <= LANES { as_leaf } else { f32::INFINITY };
+            let as_leaf = if usize::from(inside) <= most_in_leaf { as_leaf } else { f32::INFINITY };
             let mut least = as_leaf.min(as_node);
             let choice = if as_leaf <= as_node { LEAF } else { NODE };
             (best[1], lefts[1]) = (least, choice);

@@ -1,17 +1,17 @@
 //! The steps of the triangle test in all lanes, as [`crate::shape::ShearedRay`] takes them for one triangle.
 
-use super::lanes::Lanes;
+use super::lanes::Vector;
 use crate::geometry::float::gamma;
 
 /// Twice the signed area of the triangle (origin, p, q) seen along z.
 #[inline(always)]
-pub fn edge<L: Lanes>(px: L, py: L, qx: L, qy: L) -> L {
+pub fn edge<L: Vector>(px: L, py: L, qx: L, qy: L) -> L {
     px.mul(qy).sub(py.mul(qx))
 }
 
 /// The bound on the error of the depth, as for one triangle.
 #[inline(always)]
-pub fn least_depth<L: Lanes>([a, b, c]: [[L; 3]; 3], e: [L; 3], determinant: L) -> L {
+pub fn least_depth<L: Vector>([a, b, c]: [[L; 3]; 3], e: [L; 3], determinant: L) -> L {
     let max_x = largest(a[0], b[0], c[0]);
     let max_y = largest(a[1], b[1], c[1]);
     let max_z = largest(a[2], b[2], c[2]);
@@ -28,12 +28,12 @@ pub fn least_depth<L: Lanes>([a, b, c]: [[L; 3]; 3], e: [L; 3], determinant: L) 
 
 /// The largest absolute value of three.
 #[inline(always)]
-fn largest<L: Lanes>(a: L, b: L, c: L) -> L {
+fn largest<L: Vector>(a: L, b: L, c: L) -> L {
     a.abs().max(b.abs()).max(c.abs())
 }
 
 /// x or y of three points, after z was added in proportion.
 #[inline(always)]
-pub fn sheared<L: Lanes>([a, b, c]: [L; 3], shear: L, z: [L; 3]) -> [L; 3] {
+pub fn sheared<L: Vector>([a, b, c]: [L; 3], shear: L, z: [L; 3]) -> [L; 3] {
     [a.add(shear.mul(z[0])), b.add(shear.mul(z[1])), c.add(shear.mul(z[2]))]
 }

@@ -160,15 +160,15 @@ impl<L: Lanes> Frustum<L> {
         if self.backwards { -self.ends[0].lane(0) } else { self.ends[1].lane(0) }
     }
 
-    /// Which children the beam may meet, and how far along z they begin, in lanes flipped by `flip`: far
-    /// ones first.
+    /// Which children the beam may meet, in lanes flipped by `flip`, far ones first; and how far along z they
+    /// begin, as [`Lanes::push_slots`] takes it.
     #[inline(always)]
     pub fn enters(&self, node: &Node) -> (Mask, L) {
         let ends = self.extent(node, 2);
         let in_ends = ends[0].le(self.ends[1]) & self.ends[0].le(ends[1]);
         let met = in_ends & self.overlaps(node, 0, ends) & self.overlaps(node, 1, ends);
         let near = if self.backwards { L::splat(-0.0).sub(ends[1]) } else { ends[0] };
-        (met, near)
+        (L::turned_mask(met, self.flip), near)
     }
 
     /// Which triangles of a leaf a packet may meet.
@@ -197,8 +197,8 @@ impl<L: Lanes> Frustum<L> {
     #[inline(always)]
     fn extent(&self, node: &Node, i: usize) -> [L; 2] {
         let axis = self.axes[i];
-        let low = L::load(&node.planes[axis % 3]).flipped(self.flip);
-        let high = L::load(&node.planes[axis % 3 + 3]).flipped(self.flip);
+        let low = L::load(&node.planes[axis % 3]).turned(self.flip);
+        let high = L::load(&node.planes[axis % 3 + 3]).turned(self.flip);
         [low.sub(self.base[i]).sub(self.padding), high.sub(self.base[i]).add(self.padding)]
     }
 

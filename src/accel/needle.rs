@@ -1,7 +1,7 @@
 //! [`Needle`]: a ray against the triangles of a leaf.
 
 use super::edges::edge;
-use super::lanes::{Lanes, Mask, splat3};
+use super::lanes::{Mask, Vector, splat3};
 use super::triangles::Leaf;
 use crate::shape::{ShearedRay, TriangleHit};
 
@@ -23,7 +23,7 @@ pub struct Met<L> {
     pub t: L,
 }
 
-impl<L: Lanes> Needle<L> {
+impl<L: Vector> Needle<L> {
     #[inline(always)]
     pub fn new(sheared: &ShearedRay, t_min: f32) -> Self {
         Self {
@@ -66,7 +66,7 @@ impl<L: Lanes> Needle<L> {
 }
 
 /// The test of one triangle of a leaf.
-#[inline]
+#[inline(always)]
 pub fn hit(
     sheared: &ShearedRay,
     leaf: Leaf,

@@ -52,8 +52,14 @@ impl Child {
         if bits & LEAF == 0 {
             return Self::Node(bits);
         }
-        let vertices = (bits >> VERTICES_SHIFT) as usize % LANES + 1;
-        Self::Leaf { place: bits % PLACES, vertices }
+        let (place, vertices) = Self::place(bits);
+        Self::Leaf { place, vertices }
+    }
+
+    /// The place of a leaf, and how many vertices it has.
+    #[inline(always)]
+    pub fn place(leaf: u32) -> (u32, usize) {
+        (leaf % PLACES, (leaf >> VERTICES_SHIFT) as usize % LANES + 1)
     }
 }
 

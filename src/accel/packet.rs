@@ -3,7 +3,7 @@
 use glam::Vec3A;
 
 use super::edges::{edge, least_depth, sheared};
-use super::lanes::{LANES, Lanes, Mask, splat3};
+use super::lanes::{LANES, Lanes, Mask, Vector, splat3};
 use super::needle::{Needle, hit};
 use super::node::Node;
 use super::triangles::Leaf;
@@ -116,14 +116,20 @@ impl<'a, L: Lanes> Packet<'a, L> {
     /// Which triangles of a leaf one ray may meet before what it met so far.
     #[inline(always)]
     pub fn meets(&self, leaf: Leaf, ray: u32) -> Mask {
-        let spread = |[x, y, z]: [L; 3]| [x.spread(ray), y.spread(ray), z.spread(ray)];
-        let needle = Needle {
-            axes: self.axes,
-            o: spread(self.o),
-            shear: spread(self.shear),
-            t_min: self.t_min.spread(ray),
-        };
-        needle.meets(leaf, self.t_max.spread(ray)).map_or(0, |met| met.lanes)
+        if leaf.fits::<L::Narrow>() {
+            let spread = |x: L| x.spread_narrow(ray);
+            return self.needle(spread).meets(leaf, spread(self.t_max)).map_or(0, |met| met.lanes);
+        }
+        let spread = |x: L| x.spread(ray);
+        self.needle(spread).meets(leaf, spread(self.t_max)).map_or(0, |met| met.lanes)
+    }
+
+    /// One ray, of whose numbers `spread` makes vectors.
+    #[inline(always)]
+    fn needle<V: Vector>(&self, spread: impl Fn(L) -> V) -> Needle<V> {
+        let three = |[x, y, z]: [L; 3]| [spread(x), spread(y), spread(z)];
+        let (o, shear) = (three(self.o), three(self.shear));
+        Needle { axes: self.axes, o, shear, t_min: spread(self.t_min) }
     }
 
     /// Tests one triangle of a leaf; which rays meet it before what they met so far.

@@ -43,14 +43,21 @@ pub struct Workshop {
 impl Part {
     /// Builds the tree over at least one triangle, given by ascending numbers, and puts the triangles where
     /// they are to be. It becomes one child of the tree above or several, for each of which that pays a
-    /// price.
-    pub fn new(workshop: &mut Workshop, source: &Source, numbers: &[u32], price: f32) -> Self {
+    /// price. Leaves hold at most so many triangles, unless they are in one place.
+    pub fn new(
+        workshop: &mut Workshop,
+        source: &Source,
+        numbers: &[u32],
+        price: f32,
+        most_in_leaf: usize,
+    ) -> Self {
         let Workshop { triangles, bundles, trees, collapse } = workshop;
         triangles.clear();
         triangles.extend(source.triangles(numbers.iter().copied()));
         bundle(triangles, bundles);
         let tree = trees.build(bundles);
-        let choices = collapse.decide(tree, |primitive| bundles[primitive as usize].range().len());
+        let choices = collapse
+            .decide(tree, most_in_leaf, |primitive| bundles[primitive as usize].range().len());
         let mut nodes = Vec::with_capacity(triangles.len() / 64 + 1);
         let mut contents = OfPart { triangles, bundles, leaves: Triangles::new() };
         let roots = lay_out(&choices, &mut contents, price, PART_LEVELS, &mut nodes);

@@ -1,8 +1,8 @@
 //! [`Path`]: which instructions rays are traced with, and the way from the outside to them.
 
-use super::lanes::Portable;
 #[cfg(target_arch = "x86_64")]
 use super::lanes::{Avx2, Avx512};
+use super::lanes::{LANES, Portable};
 use super::stack::Stack;
 use super::walk::{Found, Start, Unsure};
 use super::{Accel, Hit};
@@ -49,6 +49,15 @@ impl Path {
         }
         paths
     }
+
+    /// How many triangles a leaf is to hold at most, so that they and their vertices mostly fit into one of the
+    /// vectors that leaves are tested with.
+    pub(super) fn most_in_leaf(self) -> usize {
+        match self {
+            Self::Avx2 => 8,
+            Self::Portable | Self::Avx512 => LANES,
+        }
+    }
 }
 
 /// Defines a method of [`Accel`] that goes the way of its path to a generic one. All of it that uses vectors has
@@ -56,11 +65,14 @@ impl Path {
 /// vectors be chosen.
 macro_rules! dispatch {
     ($name:ident($accel:ident, $stack:ident, $($argument:ident: $type:ty),*) -> $result:ty, <$lanes:ident> $body:expr) => {
-        #[inline]
+        #[inline(always)]
         pub(super) fn $name(&self, stack: &mut Stack, $($argument: $type),*) -> $result {
             #[inline(always)]
             fn generic<$lanes: super::lanes::Lanes>($accel: &Accel, $stack: &mut Stack, $($argument: $type),*) -> $result {
                 $body
+            }
+            fn portable(accel: &Accel, stack: &mut Stack, $($argument: $type),*) -> $result {
+                generic::<Portable>(accel, stack, $($argument),*)
             }
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
@@ -79,7 +91,7 @@ macro_rules! dispatch {
                 #[cfg(target_arch = "x86_64")]
                 // SAFETY: likewise.
                 Path::Avx2 => unsafe { avx2(self, stack, $($argument),*) },
-                _ => generic::<Portable>(self, stack, $($argument),*),
+                _ => portable(self, stack, $($argument),*),
             }
         }
     };

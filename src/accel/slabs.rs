@@ -26,6 +26,8 @@ pub struct Slabs<L> {
     pub end: f32,
     /// Turns slots into the order in which the ray meets them, the last one first.
     pub flip: u32,
+    /// The same, the first one first.
+    pub backwards: u32,
 }
 
 /// By how much t may be too large where a ray leaves a box.
@@ -55,6 +57,7 @@ impl<L: Lanes> Slabs<L> {
             end: ray.t_max * TOLERANCE,
             // Two slots to an octant.
             flip: backwards << 1 ^ (LANES as u32 - 1),
+            backwards: backwards << 1,
         }
     }
 
@@ -92,11 +95,12 @@ impl<L: Lanes> Slabs<L> {
         enter.le(leave)
     }
 
-    /// Which children the ray meets, and where it enters them, in lanes flipped by `flip`: far ones first.
+    /// Which children the ray meets, in lanes flipped by `flip`, far ones first; and where it enters them, as
+    /// [`Lanes::push`] takes it.
     #[inline(always)]
     pub fn enters(&self, node: &Node) -> (Mask, L) {
         let (enter, leave) = self.interval(node);
-        let (enter, leave) = (enter.flipped(self.flip), leave.flipped(self.flip));
-        (enter.le(leave), enter)
+        let (enter, leave) = (enter.turned(self.flip), leave.turned(self.flip));
+        (L::turned_mask(enter.le(leave), self.flip), enter)
     }
 }

@@ -23,7 +23,7 @@ pub fn top(pieces: &[Root], nodes: &mut Vec<Node>) -> usize {
     let mut trees = BinaryTrees::default();
     let mut collapse = Collapse::default();
     // A leaf has room for one only.
-    let choices = collapse.decide(trees.build(pieces), |_| TOO_MANY);
+    let choices = collapse.decide(trees.build(pieces), LANES, |_| TOO_MANY);
     let roots = lay_out(&choices, &mut Pieces(pieces), 0.0, TOP_LEVELS - 1, nodes);
     let boxes: ArrayVec<Aabb, LANES> = roots.iter().map(|root| root.bounds).collect();
     for (root, slot) in roots.iter().zip(slots(&boxes)) {

@@ -4,7 +4,7 @@ use arrayvec::ArrayVec;
 use glam::{Vec3, Vec3A};
 use obvhs::aabb::Aabb;
 
-use super::lanes::{LANES, Lanes, Mask, Places};
+use super::lanes::{LANES, Mask, Places, Vector};
 use super::node::Child;
 
 /// A triangle, with its number among all triangles of all meshes.
@@ -150,7 +150,7 @@ const NOTHING_WORDS: usize = ALIGNMENT;
 impl Leaf<'_> {
     /// One coordinate of all vertices, and what comes behind them.
     #[inline(always)]
-    pub fn vertices<L: Lanes>(self, axis: usize) -> L {
+    pub fn vertices<L: Vector>(self, axis: usize) -> L {
         // SAFETY: behind z there are the head and LANES words, and a vector is no longer than those.
         unsafe { L::load_from(self.words.as_ptr().add(axis % 3 * self.vertices)) }
     }
@@ -167,6 +167,12 @@ impl Leaf<'_> {
     #[inline(always)]
     fn count(self) -> usize {
         self.words[3 * self.vertices + HEAD - 1].to_bits() as usize
+    }
+
+    /// Whether vectors of a kind have lanes for all vertices and all triangles.
+    #[inline(always)]
+    pub fn fits<V: Vector>(self) -> bool {
+        V::LANES == LANES || self.vertices <= V::LANES && self.count() <= V::LANES
     }
 
     /// The lanes that have triangles.

@@ -87,7 +87,7 @@ impl ShearedRay {
 
     /// [`ShearedRay::intersect`] for corners that are kept in any way: `coordinates` tells one of each
     /// corner.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn intersect_at(
         &self,
         coordinates: impl Fn(usize) -> [f32; 3],

@@ -2,7 +2,11 @@
 
 use std::arch::x86_64::*;
 
-use super::{LANES, Lanes, Mask, Places};
+use super::columns::columns;
+use super::eight::Eight;
+use super::halves::{flipped, push};
+use super::{LANES, Lanes, Mask, Places, Vector};
+use crate::accel::stack::Stack;
 use crate::geometry::Ray;
 
 /// Sixteen f32 in two registers. Only code that [`crate::accel::Path::Avx2`] leads to may touch one:
@@ -36,10 +40,10 @@ macro_rules! comparisons {
     )*};
 }
 
-impl Lanes for Avx2 {
-    type Places = Places256;
+impl Vector for Avx2 {
+    const LANES: usize = LANES;
 
-    const BEAMS: bool = true;
+    type Places = Places256;
 
     instructions! {
         add = _mm256_add_ps;
@@ -51,7 +55,6 @@ impl Lanes for Avx2 {
     }
     comparisons! {
         le = _CMP_LE_OQ;
-        lt = _CMP_LT_OQ;
         eq = _CMP_EQ_OQ;
     }
     #[inline(always)]
@@ -60,14 +63,41 @@ impl Lanes for Avx2 {
         unsafe { Self(_mm256_set1_ps(x), _mm256_set1_ps(x)) }
     }
     #[inline(always)]
-    fn load(x: &[f32; LANES]) -> Self {
-        // SAFETY: the array has all lanes.
-        unsafe { Self::load_from(x.as_ptr()) }
-    }
-    #[inline(always)]
     unsafe fn load_from(x: *const f32) -> Self {
         // SAFETY: as above; the caller promises the numbers.
         unsafe { Self(_mm256_loadu_ps(x), _mm256_loadu_ps(x.add(8))) }
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        // SAFETY: as above.
+        unsafe {
+            let sign = _mm256_set1_ps(-0.0);
+            Self(_mm256_andnot_ps(sign, self.0), _mm256_andnot_ps(sign, self.1))
+        }
+    }
+    #[inline(always)]
+    fn lane(self, lane: u32) -> f32 {
+        // SAFETY: as above.
+        unsafe { _mm256_cvtss_f32(self.spread(lane).0) }
+    }
+    #[inline(always)]
+    fn at(self, places: Places256) -> Self {
+        Self(at(self, places.0), at(self, places.1))
+    }
+}
+
+impl Lanes for Avx2 {
+    type Narrow = Eight;
+
+    const BEAMS: bool = true;
+
+    comparisons! {
+        lt = _CMP_LT_OQ;
+    }
+    #[inline(always)]
+    fn load(x: &[f32; LANES]) -> Self {
+        // SAFETY: the array has all lanes.
+        unsafe { Self::load_from(x.as_ptr()) }
     }
     #[inline(always)]
     fn transposed(rays: &[Ray; LANES]) -> [Self; 8] {
@@ -85,14 +115,6 @@ impl Lanes for Avx2 {
             _mm256_storeu_ps(x.as_mut_ptr().add(8), self.1);
         }
         x
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        // SAFETY: as above.
-        unsafe {
-            let sign = _mm256_set1_ps(-0.0);
-            Self(_mm256_andnot_ps(sign, self.0), _mm256_andnot_ps(sign, self.1))
-        }
     }
     #[inline(always)]
     fn or(self, mask: Mask, other: Self) -> Self {
@@ -125,11 +147,6 @@ impl Lanes for Avx2 {
         }
     }
     #[inline(always)]
-    fn lane(self, lane: u32) -> f32 {
-        // SAFETY: as above.
-        unsafe { _mm256_cvtss_f32(self.spread(lane).0) }
-    }
-    #[inline(always)]
     fn spread(self, lane: u32) -> Self {
         let half = if lane < 8 { self.0 } else { self.1 };
         // SAFETY: as above.
@@ -139,18 +156,42 @@ impl Lanes for Avx2 {
         }
     }
     #[inline(always)]
-    fn at(self, places: Places256) -> Self {
-        Self(at(self, places.0), at(self, places.1))
+    fn spread_narrow(self, lane: u32) -> Eight {
+        Eight(self.spread(lane).0)
     }
     #[inline(always)]
-    fn flipped(self, flip: u32) -> Self {
-        let (low, high) = if flip & 8 == 0 { (self.0, self.1) } else { (self.1, self.0) };
+    fn turned(self, _flip: u32) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn turned_mask(mask: Mask, flip: u32) -> Mask {
+        flipped(mask, flip)
+    }
+    #[inline(always)]
+    fn push(
+        self,
+        stack: &mut Stack,
+        len: usize,
+        mask: Mask,
+        children: &[u32; LANES],
+        flip: u32,
+    ) -> usize {
+        // SAFETY: as above; the array has all lanes.
+        let children = unsafe {
+            let children = children.as_ptr();
+            [_mm256_loadu_si256(children.cast()), _mm256_loadu_si256(children.add(8).cast())]
+        };
+        push(stack, len, mask, flip, children, [self.0, self.1])
+    }
+    #[inline(always)]
+    fn push_slots(self, stack: &mut Stack, len: usize, mask: Mask, first: u32, flip: u32) -> usize {
         // SAFETY: as above.
-        unsafe {
-            let lanes = _mm256_set_epi32(7, 6, 5, 4, 3, 2, 1, 0);
-            let flips = _mm256_xor_si256(lanes, _mm256_set1_epi32(flip as i32 & 7));
-            Self(_mm256_permutevar8x32_ps(low, flips), _mm256_permutevar8x32_ps(high, flips))
-        }
+        let slots = unsafe {
+            let low = _mm256_set_epi32(7, 6, 5, 4, 3, 2, 1, 0);
+            let from = |first: u32| _mm256_add_epi32(low, _mm256_set1_epi32(first as i32));
+            [from(first), from(first + 8)]
+        };
+        push(stack, len, mask, flip, slots, [self.0, self.1])
     }
 }
 
@@ -162,40 +203,6 @@ fn lanes_of(mask: Mask) -> __m256 {
         let bits = _mm256_set_epi32(128, 64, 32, 16, 8, 4, 2, 1);
         let chosen = _mm256_and_si256(_mm256_set1_epi32(i32::from(mask)), bits);
         _mm256_castsi256_ps(_mm256_cmpeq_epi32(chosen, bits))
-    }
-}
-
-/// Origin, t_min, direction and t_max of eight rays.
-#[inline(always)]
-fn columns(rays: &[Ray]) -> [__m256; 8] {
-    assert_eq!(rays.len(), 8);
-    let numbers: *const f32 = rays.as_ptr().cast();
-    // SAFETY: called from above; a ray is eight f32 in order (`repr(C)`), and there are eight.
-    unsafe {
-        // Origin and t_min of a ray beside those of the fourth after it; and likewise of what follows.
-        let beside = |i: usize| {
-            let low = _mm256_castps128_ps256(_mm_loadu_ps(numbers.add(i)));
-            _mm256_insertf128_ps::<1>(low, _mm_loadu_ps(numbers.add(i + 32)))
-        };
-        let [ox, oy, oz, t_min] = four(beside(0), beside(8), beside(16), beside(24));
-        let [dx, dy, dz, t_max] = four(beside(4), beside(12), beside(20), beside(28));
-        [ox, oy, oz, t_min, dx, dy, dz, t_max]
-    }
-}
-
-/// The columns of the four-by-four matrices in each half of four rows.
-#[inline(always)]
-fn four(a: __m256, b: __m256, c: __m256, d: __m256) -> [__m256; 4] {
-    // SAFETY: takes or makes such vectors, for which the processor has the instructions.
-    unsafe {
-        let (ab, cd) = (_mm256_unpacklo_ps(a, b), _mm256_unpacklo_ps(c, d));
-        let (ab2, cd2) = (_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d));
-        [
-            _mm256_shuffle_ps::<0x44>(ab, cd),
-            _mm256_shuffle_ps::<0xee>(ab, cd),
-            _mm256_shuffle_ps::<0x44>(ab2, cd2),
-            _mm256_shuffle_ps::<0xee>(ab2, cd2),
-        ]
     }
 }
 

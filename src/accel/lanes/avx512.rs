@@ -2,7 +2,7 @@
 
 use std::arch::x86_64::*;
 
-use super::{LANES, Lanes, Mask, Places};
+use super::{LANES, Lanes, Mask, Places, Vector};
 use crate::accel::stack::Stack;
 use crate::geometry::Ray;
 
@@ -29,10 +29,10 @@ impl From<__m512> for Avx512 {
     }
 }
 
-impl Lanes for Avx512 {
-    type Places = Places512;
+impl Vector for Avx512 {
+    const LANES: usize = LANES;
 
-    const BEAMS: bool = true;
+    type Places = Places512;
 
     instructions! {
         add(other) -> Self = _mm512_add_ps;
@@ -43,7 +43,6 @@ impl Lanes for Avx512 {
         max(other) -> Self = _mm512_max_ps;
         abs() -> Self = _mm512_abs_ps;
         le(other) -> Mask = _mm512_cmp_ps_mask::<_CMP_LE_OQ>;
-        lt(other) -> Mask = _mm512_cmp_ps_mask::<_CMP_LT_OQ>;
         eq(other) -> Mask = _mm512_cmp_ps_mask::<_CMP_EQ_OQ>;
     }
     #[inline(always)]
@@ -52,14 +51,34 @@ impl Lanes for Avx512 {
         Self(unsafe { _mm512_set1_ps(x) })
     }
     #[inline(always)]
-    fn load(x: &[f32; LANES]) -> Self {
-        // SAFETY: as above; the array has all lanes.
-        Self(unsafe { _mm512_loadu_ps(x.as_ptr()) })
-    }
-    #[inline(always)]
     unsafe fn load_from(x: *const f32) -> Self {
         // SAFETY: as above; the caller promises the numbers.
         Self(unsafe { _mm512_loadu_ps(x) })
+    }
+    #[inline(always)]
+    fn lane(self, lane: u32) -> f32 {
+        // SAFETY: as above.
+        unsafe { _mm512_cvtss_f32(_mm512_maskz_compress_ps(1 << lane, self.0)) }
+    }
+    #[inline(always)]
+    fn at(self, places: Places512) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm512_permutexvar_ps(places.0, self.0) })
+    }
+}
+
+impl Lanes for Avx512 {
+    type Narrow = Self;
+
+    const BEAMS: bool = true;
+
+    instructions! {
+        lt(other) -> Mask = _mm512_cmp_ps_mask::<_CMP_LT_OQ>;
+    }
+    #[inline(always)]
+    fn load(x: &[f32; LANES]) -> Self {
+        // SAFETY: as above; the array has all lanes.
+        Self(unsafe { _mm512_loadu_ps(x.as_ptr()) })
     }
     #[inline(always)]
     fn transposed(rays: &[Ray; LANES]) -> [Self; 8] {
@@ -118,22 +137,16 @@ impl Lanes for Avx512 {
         Self(unsafe { _mm512_mask_mov_ps(self.0, mask, other.0) })
     }
     #[inline(always)]
-    fn lane(self, lane: u32) -> f32 {
-        // SAFETY: as above.
-        unsafe { _mm512_cvtss_f32(_mm512_maskz_compress_ps(1 << lane, self.0)) }
-    }
-    #[inline(always)]
     fn spread(self, lane: u32) -> Self {
         // SAFETY: as above.
         Self(unsafe { _mm512_permutexvar_ps(_mm512_set1_epi32(lane as i32), self.0) })
     }
     #[inline(always)]
-    fn at(self, places: Places512) -> Self {
-        // SAFETY: as above.
-        Self(unsafe { _mm512_permutexvar_ps(places.0, self.0) })
+    fn spread_narrow(self, lane: u32) -> Self {
+        self.spread(lane)
     }
     #[inline(always)]
-    fn flipped(self, flip: u32) -> Self {
+    fn turned(self, flip: u32) -> Self {
         // SAFETY: as above.
         Self(unsafe { _mm512_permutexvar_ps(flips(flip), self.0) })
     }
@@ -158,7 +171,6 @@ impl Lanes for Avx512 {
         }
         len + mask.count_ones() as usize
     }
-
     #[inline(always)]
     fn push_slots(self, stack: &mut Stack, len: usize, mask: Mask, first: u32, flip: u32) -> usize {
         let (waiting, enters) = stack.room(len);

@@ -7,6 +7,12 @@
 mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
+#[cfg(target_arch = "x86_64")]
+mod columns;
+#[cfg(target_arch = "x86_64")]
+mod eight;
+#[cfg(target_arch = "x86_64")]
+mod halves;
 mod portable;
 
 #[cfg(target_arch = "x86_64")]
@@ -30,24 +36,20 @@ pub trait Places: Copy {
     fn new(words: [u32; 2]) -> Self;
 }
 
-/// Sixteen f32. Only [`super::path`] chooses between the types that have this trait, and asks the processor
-/// first: all others use instructions that it may not have.
-pub trait Lanes: Copy {
+/// Several f32, up to sixteen: what the test of a ray against triangles takes. Only [`super::path`] chooses between
+/// the types that have this trait, and asks the processor first: all others use instructions that it may not have.
+pub trait Vector: Copy {
+    /// How many there are.
+    const LANES: usize;
+
     type Places: Places;
 
-    /// Whether vectors are wide enough for packets of rays to pay.
-    const BEAMS: bool;
-
     fn splat(x: f32) -> Self;
-    fn load(x: &[f32; LANES]) -> Self;
-    /// Sixteen numbers from `x` on.
+    /// Numbers from `x` on.
     ///
     /// # Safety
-    /// They have to be there.
+    /// They have to be there, [`LANES`] of them.
     unsafe fn load_from(x: *const f32) -> Self;
-    /// Origin, t_min, direction and t_max of each ray.
-    fn transposed(rays: &[Ray; LANES]) -> [Self; 8];
-    fn to_array(self) -> [f32; LANES];
     fn add(self, other: Self) -> Self;
     fn sub(self, other: Self) -> Self;
     fn mul(self, other: Self) -> Self;
@@ -59,10 +61,28 @@ pub trait Lanes: Copy {
     fn abs(self) -> Self;
     /// Whether `self <= other`; not where one is NaN.
     fn le(self, other: Self) -> Mask;
-    /// Whether `self < other`; not where one is NaN.
-    fn lt(self, other: Self) -> Mask;
     /// Whether both are equal; not where one is NaN.
     fn eq(self, other: Self) -> Mask;
+    /// The number in a lane.
+    fn lane(self, lane: u32) -> f32;
+    /// Lane `i` becomes the lane that it has the number of.
+    fn at(self, places: Self::Places) -> Self;
+}
+
+/// Sixteen f32.
+pub trait Lanes: Vector {
+    /// What leaves are tested with that hold no more vertices and triangles than it has lanes.
+    type Narrow: Vector;
+
+    /// Whether vectors are wide enough for packets of rays to pay.
+    const BEAMS: bool;
+
+    fn load(x: &[f32; LANES]) -> Self;
+    /// Origin, t_min, direction and t_max of each ray.
+    fn transposed(rays: &[Ray; LANES]) -> [Self; 8];
+    fn to_array(self) -> [f32; LANES];
+    /// Whether `self < other`; not where one is NaN.
+    fn lt(self, other: Self) -> Mask;
     /// `other` in the lanes of `mask`.
     fn or(self, mask: Mask, other: Self) -> Self;
     /// The least of all; undefined if one is NaN.
@@ -77,17 +97,21 @@ pub trait Lanes: Copy {
             [a.greatest(), b.greatest(), c.greatest(), d.greatest()],
         ]
     }
-    /// The number in a lane.
-    fn lane(self, lane: u32) -> f32;
     /// The number in a lane in all lanes.
     fn spread(self, lane: u32) -> Self;
-    /// Lane `i` becomes the lane that it has the number of.
-    fn at(self, places: Self::Places) -> Self;
-    /// Lane `i` becomes lane `i ^ flip`.
-    fn flipped(self, flip: u32) -> Self;
-    /// Puts the children in the lanes of `mask`, after lanes were flipped as by [`Lanes::flipped`], on the
-    /// stack, where `len` wait already, the lowest lane lowest. `self` says where the ray enters them, and
-    /// is flipped already. How many wait then.
+    /// The same of fewer lanes.
+    fn spread_narrow(self, lane: u32) -> Self::Narrow;
+    /// Lane `i` becomes lane `i ^ flip`; but all stay where it is quicker to flip the masks of what is computed
+    /// from them.
+    fn turned(self, flip: u32) -> Self;
+    /// A mask of vectors that were [turned](Lanes::turned), with its lanes flipped.
+    #[inline(always)]
+    fn turned_mask(mask: Mask, _flip: u32) -> Mask {
+        mask
+    }
+    /// Puts the children in the lanes of `mask`, whose lanes are flipped, on the stack, where `len` wait already,
+    /// the lowest lane lowest. `self` says where the ray enters them, and is [turned](Lanes::turned). How many
+    /// wait then.
     #[inline(always)]
     fn push(
         self,
@@ -128,6 +152,6 @@ fn push_each(
 
 /// Each of three numbers in all lanes. Written out, because `map` is not always inlined.
 #[inline(always)]
-pub fn splat3<L: Lanes>([x, y, z]: [f32; 3]) -> [L; 3] {
+pub fn splat3<L: Vector>([x, y, z]: [f32; 3]) -> [L; 3] {
     [L::splat(x), L::splat(y), L::splat(z)]
 }

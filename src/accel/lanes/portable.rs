@@ -2,7 +2,7 @@
 
 use std::array::from_fn;
 
-use super::{LANES, Lanes, Mask, Places};
+use super::{LANES, Lanes, Mask, Places, Vector};
 use crate::geometry::Ray;
 
 #[derive(Clone, Copy)]
@@ -20,49 +20,19 @@ impl Portable {
     }
 }
 
-impl Lanes for Portable {
-    type Places = [u8; LANES];
+impl Vector for Portable {
+    const LANES: usize = LANES;
 
-    const BEAMS: bool = false;
+    type Places = [u8; LANES];
 
     #[inline(always)]
     fn splat(x: f32) -> Self {
         Self([x; LANES])
     }
     #[inline(always)]
-    fn load(x: &[f32; LANES]) -> Self {
-        Self(*x)
-    }
-    #[inline(always)]
     unsafe fn load_from(x: *const f32) -> Self {
         // SAFETY: the caller promises the numbers.
         Self(unsafe { x.cast::<[f32; LANES]>().read_unaligned() })
-    }
-    #[inline(always)]
-    fn transposed(rays: &[Ray; LANES]) -> [Self; 8] {
-        let of = |f: fn(&Ray) -> f32| Self(from_fn(|i| f(&rays[i])));
-        [
-            of(|r| r.o.x),
-            of(|r| r.o.y),
-            of(|r| r.o.z),
-            of(|r| r.t_min),
-            of(|r| r.d.x),
-            of(|r| r.d.y),
-            of(|r| r.d.z),
-            of(|r| r.t_max),
-        ]
-    }
-    #[inline(always)]
-    fn least(self) -> f32 {
-        self.0.into_iter().fold(f32::INFINITY, f32::min)
-    }
-    #[inline(always)]
-    fn greatest(self) -> f32 {
-        self.0.into_iter().fold(f32::NEG_INFINITY, f32::max)
-    }
-    #[inline(always)]
-    fn to_array(self) -> [f32; LANES] {
-        self.0
     }
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -97,31 +67,72 @@ impl Lanes for Portable {
         self.mask(other, |a, b| a <= b)
     }
     #[inline(always)]
-    fn lt(self, other: Self) -> Mask {
-        self.mask(other, |a, b| a < b)
-    }
-    #[inline(always)]
     fn eq(self, other: Self) -> Mask {
         self.mask(other, |a, b| a == b)
-    }
-    #[inline(always)]
-    fn or(self, mask: Mask, other: Self) -> Self {
-        Self(from_fn(|i| if mask >> i & 1 == 1 { other.0[i] } else { self.0[i] }))
     }
     #[inline(always)]
     fn lane(self, lane: u32) -> f32 {
         self.0[lane as usize % LANES]
     }
     #[inline(always)]
+    fn at(self, places: [u8; LANES]) -> Self {
+        Self(from_fn(|i| self.0[usize::from(places[i]) % LANES]))
+    }
+}
+
+impl Lanes for Portable {
+    type Narrow = Self;
+
+    const BEAMS: bool = false;
+
+    #[inline(always)]
+    fn load(x: &[f32; LANES]) -> Self {
+        Self(*x)
+    }
+    #[inline(always)]
+    fn transposed(rays: &[Ray; LANES]) -> [Self; 8] {
+        let of = |f: fn(&Ray) -> f32| Self(from_fn(|i| f(&rays[i])));
+        [
+            of(|r| r.o.x),
+            of(|r| r.o.y),
+            of(|r| r.o.z),
+            of(|r| r.t_min),
+            of(|r| r.d.x),
+            of(|r| r.d.y),
+            of(|r| r.d.z),
+            of(|r| r.t_max),
+        ]
+    }
+    #[inline(always)]
+    fn least(self) -> f32 {
+        self.0.into_iter().fold(f32::INFINITY, f32::min)
+    }
+    #[inline(always)]
+    fn greatest(self) -> f32 {
+        self.0.into_iter().fold(f32::NEG_INFINITY, f32::max)
+    }
+    #[inline(always)]
+    fn to_array(self) -> [f32; LANES] {
+        self.0
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> Mask {
+        self.mask(other, |a, b| a < b)
+    }
+    #[inline(always)]
+    fn or(self, mask: Mask, other: Self) -> Self {
+        Self(from_fn(|i| if mask >> i & 1 == 1 { other.0[i] } else { self.0[i] }))
+    }
+    #[inline(always)]
     fn spread(self, lane: u32) -> Self {
         Self::splat(self.lane(lane))
     }
     #[inline(always)]
-    fn at(self, places: [u8; LANES]) -> Self {
-        Self(from_fn(|i| self.0[usize::from(places[i]) % LANES]))
+    fn spread_narrow(self, lane: u32) -> Self {
+        self.spread(lane)
     }
     #[inline(always)]
-    fn flipped(self, flip: u32) -> Self {
+    fn turned(self, flip: u32) -> Self {
         Self(from_fn(|i| self.0[(i ^ flip as usize) % LANES]))
     }
 }
