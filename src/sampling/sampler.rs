@@ -19,30 +19,12 @@ impl SampleId {
     pub(crate) fn sets(ids: &[Self]) -> impl Iterator<Item = &[Self]> {
         let mut ids = ids;
         std::iter::from_fn(move || {
-            let (of_set, rest) = ids.split_at(Self::first_set(ids)?);
+            let first = ids.first()?;
+            let is_alike = |id: &&Self| id.pixel == first.pixel && id.set == first.set;
+            let (of_set, rest) = ids.split_at(ids.iter().take_while(is_alike).count());
             ids = rest;
             Some(of_set)
         })
-    }
-
-    /// How many are in the first run.
-    #[inline]
-    fn first_set(ids: &[Self]) -> Option<usize> {
-        let first = ids.first()?.words();
-        let differences = |[a, b, c, d]: [u32; 4], id: &Self| {
-            let [x, y, set, index] = id.words();
-            [a | (x ^ first[0]), b | (y ^ first[1]), c | (set ^ first[2]), d | (index ^ first[3])]
-        };
-        let alike = |ids: &[Self]| ids.iter().fold([0; 4], differences)[..3] == [0; 3];
-        // Eight at once, as long as that goes.
-        let (eights, _) = ids.as_chunks::<8>();
-        let start = 8 * eights.iter().take_while(|ids| alike(&ids[..])).count();
-        Some(start + ids[start..].iter().take_while(|id| alike(std::slice::from_ref(id))).count())
-    }
-
-    #[inline]
-    fn words(&self) -> [u32; 4] {
-        [self.pixel.x, self.pixel.y, self.set, self.index]
     }
 }
 
