@@ -118,9 +118,7 @@ impl Transport {
             if depth == self.max_depth || wave.paths.met.active.is_empty() {
                 break;
             }
-            if self.has_places || self.goes_on(depth) {
-                self.draw_samples(sampler, &wave.ids, &mut wave.paths, depth);
-            }
+            self.draw_samples(sampler, &wave.ids, &mut wave.paths, depth);
             self.scatter(scene, sampler, wave, depth);
             wave.counters.shadow_rays += wave.shadow.trace(scene, &mut wave.radiance);
             wave.counters.scattered_rays += wave.paths.trace(scene);

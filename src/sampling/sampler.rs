@@ -19,12 +19,24 @@ impl SampleId {
     pub(crate) fn sets(ids: &[Self]) -> impl Iterator<Item = &[Self]> {
         let mut ids = ids;
         std::iter::from_fn(move || {
-            let first = ids.first()?;
-            let is_alike = |id: &&Self| id.pixel == first.pixel && id.set == first.set;
-            let (of_set, rest) = ids.split_at(ids.iter().take_while(is_alike).count());
+            let (of_set, rest) = ids.split_at(Self::first_set(ids)?);
             ids = rest;
             Some(of_set)
         })
+    }
+
+    /// How many are in the first run.
+    #[inline(always)]
+    fn first_set(ids: &[Self]) -> Option<usize> {
+        let first = ids.first()?;
+        let differ = |id: &Self| {
+            (id.pixel.x ^ first.pixel.x) | (id.pixel.y ^ first.pixel.y) | (id.set ^ first.set)
+        };
+        // Eight at once, as long as that goes.
+        let (eights, _) = ids.as_chunks::<8>();
+        let alike = |ids: &&[Self; 8]| ids.iter().fold(0, |all, id| all | differ(id)) == 0;
+        let start = 8 * eights.iter().take_while(alike).count();
+        Some(start + ids[start..].iter().take_while(|id| differ(id) == 0).count())
     }
 }
 
