@@ -140,9 +140,14 @@ impl<'a> PlainHits<'a> {
 
 /// Adds the values whose bits in the mask are set.
 ///
-/// All are written, and the next one over those that do not count: a branch would be hard to foresee.
+/// If these are not all, each is written, and the next one over those that do not count: which these are would
+/// be hard to foresee for a branch.
 #[inline(always)]
 pub fn push_x4<T: Copy>(to: &mut Vec<T>, mask: u32, values: &[T; 4]) {
+    if mask == 0b1111 {
+        to.extend_from_slice(values);
+        return;
+    }
     for (i, &value) in values.iter().enumerate() {
         to.push(value);
         to.truncate(to.len() - (!mask >> i & 1) as usize);

@@ -77,10 +77,14 @@ impl LightSamples {
         }
     }
 
-    /// Shadow rays, and what each carries. Bit i of the mask is for the i-th.
+    /// Shadow rays, and what each carries, if there are any. Bit i of the mask is for the i-th.
     #[inline(always)]
-    pub fn reflected(&self, hits: &PlainHits) -> (u32, [Ray; 4], [Spectrum; 4]) {
+    pub fn reflected(&self, hits: &PlainHits) -> Option<(u32, [Ray; 4], [Spectrum; 4])> {
         let (reflect, wi_n) = hits.reflect(self.wi);
+        let mask = (reflect & self.exists).bitmask();
+        if mask == 0 {
+            return None;
+        }
         let mut weight = Vec4::ONE;
         if self.weighed.any() {
             let ratio = hits.pdf(wi_n) / self.pdf;
@@ -95,6 +99,6 @@ impl LightSamples {
         let d = Vec3x4::select(self.is_near, self.from - o, self.wi);
         let t_max =
             Vec4::select(self.is_near, Vec4::splat(ONE_MINUS_EPSILON), Vec4::splat(f32::INFINITY));
-        ((reflect & self.exists).bitmask(), rays_x4(o, d, t_max), carried)
+        Some((mask, rays_x4(o, d, t_max), carried))
     }
 }

@@ -182,8 +182,9 @@ impl Scatter<'_> {
         let Self { transport, scene, values, depth, .. } = *self;
         for slot in 0..transport.slots() {
             let lights = self.lights(slot, turn, hits.at.p);
-            let (mask, rays, carried) = lights.reflected(hits);
-            self.shadow.push_x4(mask, hits.paths, &rays, &carried);
+            if let Some((mask, rays, carried)) = lights.reflected(hits) {
+                self.shadow.push_x4(mask, hits.paths, &rays, &carried);
+            }
         }
         if !transport.goes_on(depth) {
             return;

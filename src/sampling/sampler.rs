@@ -26,23 +26,17 @@ impl SampleId {
     }
 
     /// How many are in the first run.
-    #[inline]
+    #[inline(always)]
     fn first_set(ids: &[Self]) -> Option<usize> {
-        let first = ids.first()?.words();
-        let differences = |[a, b, c, d]: [u32; 4], id: &Self| {
-            let [x, y, set, index] = id.words();
-            [a | (x ^ first[0]), b | (y ^ first[1]), c | (set ^ first[2]), d | (index ^ first[3])]
+        let first = ids.first()?;
+        let differ = |id: &Self| {
+            (id.pixel.x ^ first.pixel.x) | (id.pixel.y ^ first.pixel.y) | (id.set ^ first.set)
         };
-        let alike = |ids: &[Self]| ids.iter().fold([0; 4], differences)[..3] == [0; 3];
         // Eight at once, as long as that goes.
         let (eights, _) = ids.as_chunks::<8>();
-        let start = 8 * eights.iter().take_while(|ids| alike(&ids[..])).count();
-        Some(start + ids[start..].iter().take_while(|id| alike(std::slice::from_ref(id))).count())
-    }
-
-    #[inline]
-    fn words(&self) -> [u32; 4] {
-        [self.pixel.x, self.pixel.y, self.set, self.index]
+        let alike = |ids: &&[Self; 8]| ids.iter().fold(0, |all, id| all | differ(id)) == 0;
+        let start = 8 * eights.iter().take_while(alike).count();
+        Some(start + ids[start..].iter().take_while(|id| differ(id) == 0).count())
     }
 }
 
