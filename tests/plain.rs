@@ -32,7 +32,8 @@ fn scene(integrator: IntegratorSettings) -> SceneBuilder {
         .light(PointLight::new(Vec3::new(-5.0, 3.0, 1.0), Spectrum::new(0.0, 20.0, 40.0)))
 }
 
-/// Seen to fail with any of the lanes' operations in another order.
+/// Seen to fail with the sum of the lanes' dot product in another order, and when the choice of a light was not drawn
+/// where nothing else is.
 #[test]
 fn shading_four_hits_at_once_changes_no_bit() {
     let path =
