@@ -204,7 +204,7 @@ def error():
         sampler = min(samplers, key=lambda name: np.prod(by_their(name, 64)))
         for spp in [16, 64, 256]:
             e, t = by_their(sampler, spp)
-            ours = [by_lobe(scene, "--time", f"{t:.4f}", "--seed", str(s), "--set", 'sampler.type="sobol"', "--set", "sampler.replicates=1") for s in range(a.runs)]
+            ours = [by_lobe(scene, "--no-layers", "--time", f"{t:.4f}", "--seed", str(s), "--set", 'sampler.type="sobol"', "--set", "sampler.replicates=1") for s in range(a.runs)]
             mine = statistics.median(rel(o[0]) for o in ours) - own
             took, n = statistics.median(o[2] for o in ours), ours[0][3]
             print(f"| {scene} | {own:.2e} | {spp}, {sampler}, {t:.3f} s | {e:.3e} | {n} spp, {took:.3f} s | {mine:.3e} | {mine / e:.3f} |", flush=True)

@@ -9,10 +9,12 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, TransportMode};
+use lobe::film::Filter;
 use lobe::glam::{UVec2, Vec3};
 use lobe::interaction::SurfaceInteraction;
+use lobe::light::SkyLight;
 use lobe::material::Material;
-use lobe::scene::{IntegratorSettings, SamplerKind, SamplerSettings};
+use lobe::scene::{IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings};
 use lobe::{PointLight, RenderOptions, Spectrum, render};
 use scenes::ball_over_floor;
 
@@ -84,6 +86,9 @@ fn rendering_allocates_nothing_after_set_up() {
         (chapter, SamplerKind::Independent),
         (IntegratorSettings::direct(), SamplerKind::Independent),
         (IntegratorSettings::direct(), SamplerKind::Stratified),
+        (IntegratorSettings::Direct { strategy: LightStrategy::Mis }, SamplerKind::Sobol),
+        (IntegratorSettings::path(6), SamplerKind::Sobol),
+        (IntegratorSettings::path(6), SamplerKind::BlueNoise),
     ] {
         let scene = ball_over_floor(UVec2::new(100, 80))
             .sampler(SamplerSettings { kind, spp: 16, ..Default::default() })
@@ -91,6 +96,8 @@ fn rendering_allocates_nothing_after_set_up() {
             .material("red", ForeignMaterial)
             .light(PointLight::new(Vec3::new(10.0, 10.0, -10.0), Spectrum::splat(900.0)))
             .light(PointLight::new(Vec3::new(-5.0, 3.0, 1.0), Spectrum::splat(20.0)))
+            .light(SkyLight::new(Spectrum::splat(0.1)))
+            .filter(Filter::gaussian())
             .build()
             .unwrap();
         // (tiles done, allocations by then), the first and the latest.

@@ -3,21 +3,30 @@
 mod scenes;
 
 use std::num::NonZeroUsize;
+use std::time::Duration;
 
-use lobe::film::{Metadata, Picture, Window, write_exr};
+use lobe::film::{Filter, Metadata, Picture, Window, write_exr};
 use lobe::glam::{UVec2, Vec3};
-use lobe::scene::{IntegratorSettings, SamplerKind, SamplerSettings, SceneBuilder};
-use lobe::{CameraSettings, PointLight, RenderOptions, Spectrum, render};
+use lobe::light::SkyLight;
+use lobe::scene::{Emission, IntegratorSettings, SamplerKind, SamplerSettings, SceneBuilder};
+use lobe::{CameraSettings, PointLight, RenderOptions, Spectrum, TriangleMesh, render};
 use scenes::{ball_over_floor, chapter_camera};
+
+const SAMPLERS: [SamplerKind; 4] =
+    [SamplerKind::Independent, SamplerKind::Stratified, SamplerKind::Sobol, SamplerKind::BlueNoise];
 
 const RESOLUTION: UVec2 = UVec2::new(53, 37);
 
-/// A scene that uses all there is: a lens, shadows, two lights, first-hit layers.
+/// A scene that uses all there is: a lens, a wide filter, lights of all kinds, reflections, sets of samples, layers.
 fn scene(kind: SamplerKind) -> SceneBuilder {
+    let lamp = TriangleMesh::parallelogram(Vec3::new(1.2, 1.5, -1.0), Vec3::X, Vec3::Z);
     ball_over_floor(RESOLUTION)
         .camera(CameraSettings { lens_radius: 0.2, focal_distance: 4.0, ..chapter_camera() })
-        .sampler(SamplerSettings { kind, spp: 5, seed: 7, ..Default::default() })
-        .integrator(IntegratorSettings::direct())
+        .filter(Filter::gaussian())
+        .sampler(SamplerSettings { kind, spp: 6, seed: 7, ..Default::default() })
+        .integrator(IntegratorSettings::path(5))
+        .lamp("lamp", lamp, Emission { radiance: Spectrum::splat(3.0), two_sided: true })
+        .light(SkyLight::new(Spectrum::new(0.1, 0.2, 0.3)))
         .light(PointLight::new(Vec3::new(10.0, 10.0, -10.0), Spectrum::splat(900.0)))
         .light(PointLight::new(Vec3::new(-5.0, 3.0, 1.0), Spectrum::new(0.0, 20.0, 40.0)))
 }
@@ -37,7 +46,7 @@ fn picture(builder: SceneBuilder, threads: usize, tile_size: u32) -> Picture {
 fn threads_and_tiles_do_not_matter() {
     let folder = std::env::temp_dir().join(format!("lobe-determinism-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    for kind in [SamplerKind::Independent, SamplerKind::Stratified] {
+    for kind in SAMPLERS {
         let mut expected = None;
         for (threads, tile_size) in
             [(1, 16), (2, 16), (7, 16), (1, 1), (2, 7), (7, 64), (2, 100_000)]
@@ -59,28 +68,54 @@ fn threads_and_tiles_do_not_matter() {
 /// Seen to fail with pixels counted from the corner of the crop.
 #[test]
 fn crop_is_a_part_of_the_whole() {
-    let whole = picture(scene(SamplerKind::Independent), 2, 16);
-    let window = Window { min: UVec2::new(11, 5), max: UVec2::new(40, 36) };
-    let crop = picture(scene(SamplerKind::Independent).crop(window), 2, 7);
-    assert_eq!(crop.color.len(), window.area());
-    let whole_layers = whole.layers.unwrap();
-    let crop_layers = crop.layers.unwrap();
-    for (place, y) in (window.min.y..window.max.y).enumerate() {
-        let width = window.size().x as usize;
-        let part = place * width..(place + 1) * width;
-        let start = (y * RESOLUTION.x + window.min.x) as usize;
-        assert_eq!(crop.color[part.clone()], whole.color[start..start + width], "row {y}");
-        assert_eq!(
-            crop_layers.normal[part.clone()],
-            whole_layers.normal[start..start + width],
-            "row {y}"
-        );
-        assert_eq!(
-            crop_layers.depth[part.clone()],
-            whole_layers.depth[start..start + width],
-            "row {y}"
-        );
-        assert_eq!(crop_layers.albedo[part], whole_layers.albedo[start..start + width], "row {y}");
+    for kind in SAMPLERS {
+        let whole = picture(scene(kind), 2, 16);
+        let window = Window { min: UVec2::new(11, 5), max: UVec2::new(40, 36) };
+        let crop = picture(scene(kind).crop(window), 2, 7);
+        assert_eq!(crop.color.len(), window.area());
+        let whole_layers = whole.layers.unwrap();
+        let crop_layers = crop.layers.unwrap();
+        for (place, y) in (window.min.y..window.max.y).enumerate() {
+            let width = window.size().x as usize;
+            let part = place * width..(place + 1) * width;
+            let start = (y * RESOLUTION.x + window.min.x) as usize;
+            assert_eq!(crop.color[part.clone()], whole.color[start..start + width], "row {y}");
+            assert_eq!(
+                crop_layers.normal[part.clone()],
+                whole_layers.normal[start..start + width],
+                "row {y}"
+            );
+            assert_eq!(
+                crop_layers.depth[part.clone()],
+                whole_layers.depth[start..start + width],
+                "row {y}"
+            );
+            assert_eq!(
+                crop_layers.albedo[part],
+                whole_layers.albedo[start..start + width],
+                "row {y}"
+            );
+        }
+    }
+}
+
+/// Passes take the samples that one pass takes. Seen to fail with passes that begin at their own size.
+#[test]
+fn passes_add_up_to_one() {
+    for kind in SAMPLERS {
+        let scene = || scene(kind).sampler(SamplerSettings { kind, spp: 16, ..Default::default() });
+        let rendered = |time| {
+            let options = RenderOptions { time, spp: Some(16), layers: true, ..Default::default() };
+            render(&scene().build().unwrap(), &options).unwrap()
+        };
+        let (one, many) = (rendered(None), rendered(Some(Duration::from_secs(1 << 20))));
+        assert_eq!((one.samples_per_pixel, many.samples_per_pixel), (16, 16));
+        assert_eq!(one.counters, many.counters);
+        // Sums of f64 in another order.
+        let pixels = one.picture.color.iter().zip(&many.picture.color);
+        for (a, b) in pixels.flat_map(|(a, b)| a.to_array().into_iter().zip(b.to_array())) {
+            assert!((a - b).abs() <= 2e-7 * a, "{kind:?}: {a}, {b}");
+        }
     }
 }
 

@@ -5,9 +5,10 @@ mod scenes;
 use lobe::bxdf::{Arena, Bsdf, TransportMode};
 use lobe::glam::{UVec2, Vec3};
 use lobe::interaction::SurfaceInteraction;
+use lobe::light::{DistantLight, SkyLight};
 use lobe::material::Material;
-use lobe::scene::{IntegratorSettings, LightStrategy, SceneBuilder};
-use lobe::{MatteMaterial, PointLight, RenderOptions, Spectrum, render};
+use lobe::scene::{Emission, IntegratorSettings, LightStrategy, SceneBuilder};
+use lobe::{MatteMaterial, PointLight, RenderOptions, Spectrum, TriangleMesh, render};
 use scenes::ball_over_floor;
 
 /// A matte surface that the scene cannot know for one.
@@ -32,6 +33,17 @@ fn scene(integrator: IntegratorSettings) -> SceneBuilder {
         .light(PointLight::new(Vec3::new(-5.0, 3.0, 1.0), Spectrum::new(0.0, 20.0, 40.0)))
 }
 
+/// With lights that rays can meet.
+fn lit_scene(integrator: IntegratorSettings) -> SceneBuilder {
+    let lamp = TriangleMesh::parallelogram(Vec3::new(1.2, 1.5, -1.0), Vec3::X * 2.0, Vec3::Z * 1.5);
+    let emission = Emission { radiance: Spectrum::new(4.0, 4.0, 2.0), two_sided: true };
+    let sun = DistantLight::new(Vec3::new(-0.6, 0.8, 0.0), Spectrum::splat(0.5)).unwrap();
+    scene(integrator)
+        .glowing_shape("lamp", lamp, "red", emission)
+        .light(SkyLight::new(Spectrum::new(0.1, 0.2, 0.3)))
+        .light(sun)
+}
+
 /// Seen to fail with the sum of the lanes' dot product in another order, and when the choice of a light was not drawn
 /// where nothing else is.
 #[test]
@@ -39,17 +51,29 @@ fn shading_four_hits_at_once_changes_no_bit() {
     let path =
         |max_depth, strategy| IntegratorSettings::Path { max_depth, roulette: true, strategy };
     let [auto, mis] = [LightStrategy::Auto, LightStrategy::Mis];
-    for integrator in [IntegratorSettings::direct(), path(1, auto), path(7, auto), path(7, mis)] {
-        let colors = |builder: SceneBuilder| {
-            render(&builder.build().unwrap(), &RenderOptions::default()).unwrap().picture.color
-        };
-        let red = || Disguised(MatteMaterial::new([0.8, 0.1, 0.2]));
-        let blue = || Disguised(MatteMaterial::new([0.2, 0.3, 0.9]));
-        let plain = colors(scene(integrator));
-        assert!(plain.iter().any(|color| !color.is_black()));
-        let mixed = colors(scene(integrator).material("red", red()));
-        assert!(plain == mixed, "{integrator:?}: one of two materials disguised");
-        let disguised = colors(scene(integrator).material("red", red()).material("blue", blue()));
-        assert!(plain == disguised, "{integrator:?}: both materials disguised");
+    let [light, bsdf] = [LightStrategy::Light, LightStrategy::Bsdf];
+    let direct = |strategy| IntegratorSettings::Direct { strategy };
+    for integrator in [
+        direct(auto),
+        direct(mis),
+        path(1, auto),
+        path(7, auto),
+        path(7, mis),
+        path(7, light),
+        path(7, bsdf),
+    ] {
+        for scene in [scene, lit_scene] {
+            let colors = |builder: SceneBuilder| {
+                render(&builder.build().unwrap(), &RenderOptions::default()).unwrap().picture.color
+            };
+            let red = || Disguised(MatteMaterial::new([0.8, 0.1, 0.2]));
+            let blue = || Disguised(MatteMaterial::new([0.2, 0.3, 0.9]));
+            let plain = colors(scene(integrator));
+            assert!(plain.iter().any(|color| !color.is_black()));
+            let mixed = colors(scene(integrator).material("red", red()));
+            assert!(plain == mixed, "{integrator:?}: one of two materials disguised");
+            let both = scene(integrator).material("red", red()).material("blue", blue());
+            assert!(plain == colors(both), "{integrator:?}: both materials disguised");
+        }
     }
 }

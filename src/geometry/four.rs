@@ -1,4 +1,6 @@
-//! [`Vec3x4`]: four vectors at once.
+//! [`Vec3x4`]: four vectors at once, and what is built of them: frames, bounded points, normals and rays.
+//!
+//! Each operation is that of its namesake for one, in the same order, so that both give the same bits.
 
 use std::hint::black_box;
 use std::ops::{Add, Mul, Neg, Sub};

@@ -12,8 +12,8 @@ use crate::scene::Scene;
 /// The chapter's way to show a surface before there is light transport: pdf · f · 3 for the direction
 /// to each light, without shadow, falloff or intensity (section 6.2).
 ///
-/// What comes out is a brightness without a unit, not radiance. On a Lambertian surface it is 3 cos θ R / π². With `highlight` it is multiplied by the chapter's
-/// Blinn-Phong factor, 1.5 (0.2 + 0.2 (n · l) + 0.7 (n · h)³²), h halfway between viewer and light.
+/// What comes out is a brightness without a unit, not radiance. On a Lambertian surface it is 3 cos θ R / π².
+/// With `highlight` it is multiplied by the chapter's Blinn-Phong factor, 1.5 (0.2 + 0.2 (n · l) + 0.7 (n · h)³²), h halfway between viewer and light.
 /// Unlike there, n is the shading normal on the viewer's side, so that the winding of the mesh does
 /// not matter.
 #[derive(Clone, Copy, Debug, Default)]
@@ -51,6 +51,10 @@ impl Integrator for ChapterIntegrator {
             counters.rejected += u64::from(bsdf.rejected());
         }
         arena.reset();
+    }
+
+    fn shadow_rays(&self) -> usize {
+        0
     }
 }
 

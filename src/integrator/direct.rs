@@ -11,6 +11,9 @@ pub struct DirectIntegrator(Transport);
 
 impl DirectIntegrator {
     /// Direct light of this scene.
+    ///
+    /// # Panics
+    /// Rendering another scene with it may panic, or give a wrong picture.
     pub fn new(scene: &Scene, strategy: LightStrategy) -> Self {
         Self(Transport::new(scene, 1, false, strategy, LightChoice::All))
     }
@@ -19,5 +22,9 @@ impl DirectIntegrator {
 impl Integrator for DirectIntegrator {
     fn shade(&self, scene: &Scene, sampler: &dyn Sampler, wave: &mut Wave) {
         self.0.shade(scene, sampler, wave);
+    }
+
+    fn shadow_rays(&self) -> usize {
+        self.0.shadow_rays()
     }
 }

@@ -25,6 +25,12 @@ pub trait Integrator: Send + Sync {
     /// Samples come from `sampler` by the number in `wave.ids`, in dimensions from
     /// [`dimension::FIRST_LIGHT`] on.
     fn shade(&self, scene: &Scene, sampler: &dyn Sampler, wave: &mut Wave);
+
+    /// The most rays towards lights that a sample has waiting at a time, so that room can be made for them
+    /// beforehand.
+    fn shadow_rays(&self) -> usize {
+        1
+    }
 }
 
 /// The integrator that the settings ask for.

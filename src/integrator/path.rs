@@ -8,7 +8,7 @@ use crate::scene::{LightStrategy, Scene};
 /// Paths from the camera that are joined to a light at each hit, and may also end at one by chance
 /// (PBRT 3rd edition, section 14.5.4; both ways weighed against each other as in section 13.10.1).
 ///
-/// With several lights, one is chosen at each hit in proportion to its power. The estimate is unbiased up to `max_depth`
+/// With several lights, one is chosen at each hit, nine times in ten in proportion to its power. The estimate is unbiased up to `max_depth`
 /// reflections: light that is reflected more often is left out.
 pub struct PathIntegrator(Transport);
 
@@ -16,6 +16,9 @@ impl PathIntegrator {
     /// Paths of up to `max_depth` reflections through this scene: 0 shows the lights alone, 1 is direct light. With
     /// `roulette`, paths that carry little end at random from the fourth reflection on, and those that
     /// survive count for them.
+    ///
+    /// # Panics
+    /// Rendering another scene with it may panic, or give a wrong picture.
     pub fn new(scene: &Scene, max_depth: u32, roulette: bool, strategy: LightStrategy) -> Self {
         Self(Transport::new(scene, max_depth, roulette, strategy, LightChoice::ByPower))
     }
@@ -24,5 +27,9 @@ impl PathIntegrator {
 impl Integrator for PathIntegrator {
     fn shade(&self, scene: &Scene, sampler: &dyn Sampler, wave: &mut Wave) {
         self.0.shade(scene, sampler, wave);
+    }
+
+    fn shadow_rays(&self) -> usize {
+        self.0.shadow_rays()
     }
 }

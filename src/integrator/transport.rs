@@ -10,7 +10,7 @@ use glam::Vec3;
 use super::paths::{Path, Paths};
 use super::wave::{Wave, dimension};
 use crate::Spectrum;
-use crate::light::{Light, LightHit, PointLight};
+use crate::light::{LightHit, PointLight};
 use crate::sampling::{Discrete, SampleId, Sampler};
 use crate::scene::{LightStrategy, Scene};
 
@@ -60,6 +60,16 @@ impl Draw {
     }
 }
 
+/// How likely each of several lights is to be sampled: in proportion to its power but for a tenth, which all that shine
+/// share alike. So a weak light beside a strong one is still drawn often enough for the 24 bits of a sample, and
+/// where it alone shines it is not all noise.
+fn shares(powers: Vec<f64>) -> Vec<f64> {
+    let sum: f64 = powers.iter().sum();
+    let shining = powers.iter().filter(|&&power| power > 0.0).count() as f64;
+    let share = |power: f64| if power > 0.0 { 0.9 * power / sum + 0.1 / shining } else { 0.0 };
+    powers.into_iter().map(share).collect()
+}
+
 /// From which reflection on paths may end at random (PBRT 3rd edition, section 14.5.4).
 const ROULETTE_FROM: u32 = 3;
 
@@ -73,9 +83,10 @@ impl Transport {
     ) -> Self {
         let lights = scene.lights();
         let sphere = scene.bounding_sphere();
-        let power = |light: &dyn Light| {
-            let power = light.power(&sphere).to_array().iter().sum::<f32>();
-            f64::from(power)
+        let power = |i: &usize| {
+            let power = lights[*i].power(&sphere).to_array().map(f64::from).iter().sum::<f64>();
+            // What is beyond all floats is as bright as can be told.
+            if power > 0.0 { power.min(f32::MAX.into()) } else { 0.0 }
         };
         let mut visible: Vec<bool> = lights.iter().map(|light| light.is_infinite()).collect();
         scene.lights_on_surfaces().for_each(|i| visible[i] = true);
@@ -89,7 +100,7 @@ impl Transport {
         let draw = if choice == LightChoice::All || sampled.len() < 2 {
             sampled.iter().for_each(|&i| probability[i] = 1.0);
             Draw::Each(sampled)
-        } else if let Some(by_power) = Discrete::new(sampled.iter().map(|&i| power(&*lights[i]))) {
+        } else if let Some(by_power) = Discrete::new(shares(sampled.iter().map(power).collect())) {
             for (place, &i) in sampled.iter().enumerate() {
                 probability[i] = by_power.probability(place);
             }
@@ -114,8 +125,17 @@ impl Transport {
         }
     }
 
+    /// The most shadow rays that a sample sends at a time: one to each light that is sampled, and a last one into
+    /// the sky.
+    pub fn shadow_rays(&self) -> usize {
+        self.slots() + 1
+    }
+
     /// Adds what arrives along each ray of the wave.
     pub fn shade(&self, scene: &Scene, sampler: &dyn Sampler, wave: &mut Wave) {
+        if self.slots() == 0 && !self.on_surfaces && self.infinite.is_empty() {
+            return;
+        }
         wave.paths.start(wave.rays.len());
         for depth in 0..=self.max_depth {
             self.meet(scene, wave, depth);
@@ -179,9 +199,11 @@ impl Transport {
         for place in met.active.iter().map(|&place| place as usize) {
             let (path, ray, hit) = (&states[place], &rays[place], &hits[place]);
             if let Some(number) = scene.light_at(hit) {
-                let n = scene.interaction(ray, hit).n();
+                let si = scene.interaction(ray, hit);
                 let origin = if depth == 0 { ray.o } else { path.p };
-                let at = LightHit { origin, wi: ray.d, distance: hit.t, n };
+                // As a sample of the light from there would have it: the ray begins a little off.
+                let distance = (si.p() - origin).length();
+                let at = LightHit { origin, wi: ray.d, distance, n: si.n() };
                 radiance[path.sample as usize] += self.found(scene, number, &at, path);
             }
         }

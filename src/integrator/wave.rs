@@ -89,15 +89,14 @@ pub struct Wave {
 }
 
 impl Wave {
-    /// A wave with room for `samples` samples, and for a ray from each to each of `lights` lights.
-    pub fn with_capacity(samples: usize, lights: usize) -> Self {
+    /// A wave with room for `samples` samples, and for `shadow_rays` rays towards lights from each.
+    pub fn with_capacity(samples: usize, shadow_rays: usize) -> Self {
         Self {
             ids: Vec::with_capacity(samples),
             rays: Vec::with_capacity(samples),
             hits: Vec::with_capacity(samples),
             radiance: Vec::with_capacity(samples),
-            // To each light, or to one and a last one into the sky.
-            shadow: ShadowRays::with_capacity(samples * lights.max(2)),
+            shadow: ShadowRays::with_capacity(samples * shadow_rays),
             paths: Paths::with_capacity(samples),
             ..Self::default()
         }

@@ -33,7 +33,7 @@ pub struct LightSample {
 /// What a ray meets of a light that has an extent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightHit {
-    /// Where the ray begins.
+    /// The surface's point that the ray leaves, before its origin is moved off the surface.
     pub origin: Vec3,
     /// Its unit direction.
     pub wi: Vec3,
@@ -67,9 +67,8 @@ pub trait Light: Send + Sync {
         false
     }
 
-    /// Whether drawing directions from this light helps rays that are drawn from the surface's own
-    /// reflection, and may by chance end at the light. A constant sky says no: a surface does not care
-    /// which part of it it sees.
+    /// Whether directions should be drawn from this light at all, where rays that follow the surface's own
+    /// reflection can meet it too. A constant sky says no: a surface does not care which part of it it sees.
     fn is_worth_sampling(&self) -> bool {
         true
     }

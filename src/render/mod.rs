@@ -1,13 +1,13 @@
 //! Rendering: tiles on threads, progress, and an end on request.
 
+mod pass;
 mod passes;
 mod samples;
 mod tiles;
 mod worker;
 
 use std::num::NonZeroUsize;
-use std::ops::Range;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -16,10 +16,9 @@ use crate::integrator::{self, Counters, Integrator};
 use crate::sampling::{
     BlueNoiseSampler, IndependentSampler, Sampler, SobolSampler, StratifiedSampler,
 };
-use crate::scene::{SamplerKind, Scene};
+use crate::scene::{SamplerKind, SamplerSettings, Scene};
+use pass::Pass;
 use passes::Passes;
-use tiles::Tiles;
-use worker::Worker;
 
 /// How to render. Apart from `spp`, `time` and `layers` none of it changes what comes out.
 #[derive(Clone, Copy)]
@@ -28,13 +27,13 @@ pub struct RenderOptions<'a> {
     pub threads: Option<NonZeroUsize>,
     /// Columns and rows of a tile, at least 1.
     pub tile_size: u32,
-    /// The most samples in each pixel, rounded down to a multiple of the sampler's sets; if there is no number, as many
-    /// as the scene says, or with `time` no limit.
+    /// Samples in each pixel, in place of the scene's; with `time` the most, which without a number have no limit.
     pub spp: Option<u32>,
-    /// Renders in passes, each with as many samples as all before it, and ends when the next one would take
-    /// longer than this.
+    /// Renders in passes, each with as many samples as all before it, and in the time that is left smaller ones, until
+    /// none would end in time. How many samples that makes depends on the machine.
     pub time: Option<Duration>,
-    /// Whether to keep normal, depth and albedo of the first hits.
+    /// Whether to keep normal, depth and albedo of the first hits, the number of samples, and the variance of each
+    /// pixel.
     pub layers: bool,
     /// Told after every tile, by the thread that rendered it, while the other threads cannot hand in
     /// theirs: it should be quick.
@@ -100,7 +99,8 @@ pub enum RenderError {
 
 /// Renders a scene by its own settings.
 ///
-/// The picture is the same, bit by bit, for any number of threads and any size of tiles.
+/// The picture is the same, bit by bit, for any number of threads and any size of tiles. With
+/// [`RenderOptions::time`] that holds for the same number of samples.
 ///
 /// # Errors
 /// If there is not enough memory for the film, or if the caller cancels the render.
@@ -114,7 +114,7 @@ pub enum RenderError {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn render(scene: &Scene, options: &RenderOptions) -> Result<Rendered, RenderError> {
-    let sampler = sampler_from_settings(scene);
+    let sampler = sampler_from_settings(scene, &settings(scene, options));
     let integrator = integrator::from_settings(scene);
     render_with(scene, &*integrator, &*sampler, options)
 }
@@ -130,16 +130,17 @@ pub fn render_with(
     options: &RenderOptions,
 ) -> Result<Rendered, RenderError> {
     let start = Instant::now();
-    let settings = scene.film();
-    let sets = scene.sampler().sets();
-    let no_limit = if options.time.is_some() { u32::MAX } else { scene.sampler().spp };
-    let mut passes = Passes::new(options.spp.unwrap_or(no_limit) / sets, options.time);
+    let film = scene.film();
+    let SamplerSettings { spp, .. } = settings(scene, options);
+    let sets = settings(scene, options).sets();
+    let limit = if options.spp.is_none() && options.time.is_some() { u32::MAX } else { spp };
+    let mut passes = Passes::new(limit / sets, options.time);
     let variance = match options.layers {
         true => Variance::suiting(sampler.is_correlated(), sets),
         false => Variance::None,
     };
     let contents = FilmContents { variance, first_hits: options.layers };
-    let film = Film::new(settings.resolution, settings.window(), contents)?;
+    let film = Film::new(film.resolution, film.window(), contents)?;
     let shared = Mutex::new((film, Counters::default()));
     let mut threads = 0;
     while let Some(indices) = passes.next() {
@@ -157,75 +158,14 @@ pub fn render_with(
     })
 }
 
-/// Samples that are taken of all pixels before any more are.
-struct Pass<'a> {
-    scene: &'a Scene,
-    integrator: &'a dyn Integrator,
-    sampler: &'a dyn Sampler,
-    options: &'a RenderOptions<'a>,
-    /// Which samples of each set.
-    indices: Range<u32>,
-    sets: u32,
-    contents: FilmContents,
+/// The scene's settings, with as many samples as the options say.
+fn settings(scene: &Scene, options: &RenderOptions) -> SamplerSettings {
+    let settings = *scene.sampler();
+    SamplerSettings { spp: options.spp.unwrap_or(settings.spp).max(1), ..settings }
 }
 
-impl Pass<'_> {
-    /// Adds the samples of all tiles to the film, and returns how many threads did so.
-    fn render(&self, shared: &Mutex<(Film, Counters)>) -> Result<usize, RenderError> {
-        let tiles = Tiles::new(self.scene.film().window(), self.options.tile_size);
-        let pixels = AtomicU64::new(0);
-        let work = || self.work(&tiles, &pixels, shared);
-        let threads = self.options.threads.or_else(|| std::thread::available_parallelism().ok());
-        let threads = std::thread::scope(|scope| {
-            let others: Vec<_> = (1..threads.map_or(1, NonZeroUsize::get).min(tiles.count()))
-                // Where the system gives no more threads, those that there are do the work.
-                .map_while(|_| std::thread::Builder::new().spawn_scoped(scope, work).ok())
-                .collect();
-            let threads = others.len() + 1;
-            let mine = work();
-            // A panic in a worker, which only foreign code can cause, goes on in the caller.
-            let theirs = others
-                .into_iter()
-                .map(|w| w.join().unwrap_or_else(|p| std::panic::resume_unwind(p)));
-            theirs.fold(mine, Result::and).map(|()| threads)
-        })?;
-        let all = self.scene.film().window().area() as u64;
-        if pixels.into_inner() < all { Err(RenderError::Cancelled) } else { Ok(threads) }
-    }
-
-    /// One thread's share: tile after tile, until there are no more.
-    fn work(
-        &self,
-        tiles: &Tiles,
-        pixels: &AtomicU64,
-        shared: &Mutex<(Film, Counters)>,
-    ) -> Result<(), RenderError> {
-        let Self { scene, integrator, sampler, options, .. } = *self;
-        let mut worker =
-            Worker::new(scene, integrator, sampler, options, self.sets, self.contents)?;
-        let cancelled = || options.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
-        while !cancelled() {
-            let Some(tile) = tiles.next() else { break };
-            worker.render(tile, &self.indices);
-            // A poisoned lock means that another worker panicked, which ends the scope anyway.
-            let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
-            let (film, counters) = &mut *shared;
-            film.merge(worker.tile());
-            counters.add(&worker.take_counters());
-            let done = pixels.fetch_add(tile.area() as u64, Ordering::Relaxed) + tile.area() as u64;
-            if let Some(progress) = options.progress {
-                let samples = self.indices.start * self.sets;
-                let of = scene.film().window().area() as u64;
-                progress(Progress { pixels: done, of, samples, rays: counters.rays() });
-            }
-        }
-        Ok(())
-    }
-}
-
-/// The sampler that the scene's settings ask for.
-fn sampler_from_settings(scene: &Scene) -> Box<dyn Sampler> {
-    let settings = scene.sampler();
+/// The sampler that the settings ask for.
+fn sampler_from_settings(scene: &Scene, settings: &SamplerSettings) -> Box<dyn Sampler> {
     let (seed, samples_per_set) = (settings.seed, settings.spp / settings.sets());
     match settings.kind {
         SamplerKind::Independent => Box::new(IndependentSampler::new(seed)),

@@ -48,3 +48,32 @@ impl Passes {
         size.min(left)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All sizes until there are no more.
+    fn sizes(limit: u32, time: Option<Duration>) -> Vec<u32> {
+        let (mut passes, mut end) = (Passes::new(limit, time), 0);
+        let sizes = std::iter::from_fn(|| passes.next()).map(|pass| {
+            assert_eq!(pass.start, end, "samples are left out or taken twice");
+            end = pass.end;
+            pass.len() as u32
+        });
+        let sizes: Vec<u32> = sizes.collect();
+        assert_eq!(passes.done(), sizes.iter().sum());
+        sizes
+    }
+
+    /// Seen to fail with a limit that is looked at only before a pass, and with no first pass when there is no time.
+    #[test]
+    fn passes_double_up_to_the_limit() {
+        let long = Some(Duration::from_secs(1 << 20));
+        assert_eq!(sizes(7, long), [1, 1, 2, 3]);
+        assert_eq!(sizes(1, long), [1]);
+        assert_eq!(sizes(64, None), [64]);
+        assert_eq!(sizes(0, None), [1]);
+        assert_eq!(sizes(u32::MAX, Some(Duration::from_nanos(1))), [1]);
+    }
+}

@@ -58,3 +58,31 @@ impl Samples {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whatever the wave's length, in the same order. Seen to fail with a wave that starts its set anew.
+    #[test]
+    fn samples_come_once_and_in_order() {
+        let window = Window { min: UVec2::new(3, 5), max: UVec2::new(6, 7) };
+        let (sets, pass) = (3, 2..7);
+        let mut expected = Vec::new();
+        for (y, x) in (5..7).flat_map(|y| (3..6).map(move |x| (y, x))) {
+            for (set, index) in (0..3).flat_map(|set| (2..7).map(move |index| (set, index))) {
+                expected.push(SampleId { pixel: UVec2::new(x, y), set, index });
+            }
+        }
+        for most in [1, 4, 7, 15, 1000] {
+            let mut samples = Samples::new(window, sets, pass.clone());
+            let (mut all, mut wave) = (Vec::new(), Vec::new());
+            while !samples.is_empty() {
+                samples.fill(most, &mut wave);
+                assert!(!wave.is_empty() && wave.len() <= most);
+                all.extend_from_slice(&wave);
+            }
+            assert_eq!(all, expected, "waves of {most}");
+        }
+    }
+}

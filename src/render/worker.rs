@@ -49,7 +49,7 @@ impl<'a> Worker<'a> {
             scene,
             integrator,
             sampler,
-            wave: Wave::with_capacity(WAVE, scene.lights().len()),
+            wave: Wave::with_capacity(WAVE, integrator.shadow_rays()),
             tile,
             sets,
             rho_points: lattice(),

@@ -67,13 +67,16 @@ pub struct SamplerSettings {
 }
 
 impl SamplerSettings {
+    /// More sets than this tell no more of the error.
+    pub const MOST_SETS: u32 = 1024;
+
     /// How many independent sets the samples of a pixel are divided into, all of the same size: the largest
     /// divisor of `spp` that is not above `replicates`; one set if the samples do not know of each other.
     pub fn sets(&self) -> u32 {
         if self.kind == SamplerKind::Independent {
             return 1;
         }
-        let most = self.replicates.clamp(1, self.spp.max(1));
+        let most = self.replicates.min(self.spp).clamp(1, Self::MOST_SETS);
         (1..=most).rev().find(|sets| self.spp.is_multiple_of(*sets)).unwrap_or(1)
     }
 }
@@ -114,7 +117,7 @@ pub enum IntegratorSettings {
 pub struct Emission {
     /// Radiance in W / (m² sr), at least 0 in each band.
     pub radiance: Spectrum,
-    /// Whether it leaves on both sides, or only where the geometric normal points.
+    /// Whether it leaves on both sides, or only outside: see [`AreaLight`](crate::light::AreaLight).
     pub two_sided: bool,
 }
 

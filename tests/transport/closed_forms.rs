@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use lobe::film::Filter;
 use lobe::glam::{DVec2, DVec3, UVec2, Vec3};
 use lobe::light::{DistantLight, SkyLight};
 use lobe::scene::{
@@ -47,6 +48,8 @@ fn a_plane_under_a_distant_light() {
             .integrator(IntegratorSettings::direct())
             .material("plane", MatteMaterial::new([0.5, 0.25, 1.0]))
             .shape("plane", floor(0.0, 10.0), "plane")
+            // Behind the plane and in front of it, out of sight and out of the light's way.
+            .shape("below", floor(-1.0, 10.0), "plane")
             .light(DistantLight::new(towards, Spectrum::splat(3.0)).unwrap()),
     );
     for (place, pixel) in picture.color.iter().enumerate() {
@@ -113,6 +116,40 @@ fn a_furnace_adds_up_all_reflections() {
         let expected = e * (1.0 - f64::powi(a, reflections)) / (1.0 - a);
         let what = format!("{strategy:?}, depth {max_depth}, roulette {roulette}");
         assert_mean(&picture, expected, &what);
+    }
+}
+
+/// A lamp that fills the left half of the image, seen through each filter: a pixel is as bright as the share of its
+/// filter to the left of the middle, here by the sum of a million values. Seen to fail with the filter left out.
+#[test]
+fn a_filter_blurs_an_edge() {
+    for filter in [Filter::Box, Filter::tent(), Filter::gaussian(), Filter::blackman_harris()] {
+        let half =
+            TriangleMesh::parallelogram(Vec3::new(-9.0, -9.0, 1.0), Vec3::X * 9.0, Vec3::Y * 18.0);
+        let emission = Emission { radiance: Spectrum::WHITE, two_sided: true };
+        let picture = picture(
+            Scene::builder()
+                .camera(CameraSettings { look_at: Vec3::Z, fov: 40.0, ..CameraSettings::default() })
+                .resolution(8, 8)
+                .filter(filter)
+                .sampler(sampler(1 << 14))
+                .integrator(path(0, false, LightStrategy::Auto))
+                .lamp("half", half, emission),
+        );
+        let steps = 1 << 20;
+        let places = || (0..steps).map(|i| (f64::from(i) + 0.5) / f64::from(steps) * 6.0 - 3.0);
+        let value = |x: f64| f64::from(filter.evaluate(DVec2::new(x, 0.0).as_vec2()));
+        let all: f64 = places().map(value).sum();
+        for (place, (band, variance)) in bands(&picture).into_iter().enumerate() {
+            let middle = (place / 3 % 8) as f64 + 0.5;
+            let left: f64 = places().filter(|x| middle + x < 4.0).map(value).sum();
+            let off = (band - left / all).abs();
+            assert!(
+                off <= 5.0 * variance.sqrt() + 1e-5,
+                "{filter:?}, pixel at {middle}: {band}, {}",
+                left / all
+            );
+        }
     }
 }
 

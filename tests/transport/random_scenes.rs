@@ -3,7 +3,7 @@
 use lobe::glam::Vec3;
 use lobe::light::{DistantLight, SkyLight};
 use lobe::scene::{
-    Emission, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings, Scene,
+    Emission, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings, Scene, read_scene,
 };
 use lobe::{
     CameraSettings, MatteMaterial, PointLight, RenderOptions, Spectrum, TriangleMesh, render,
@@ -155,6 +155,22 @@ fn scene(trial: u64) -> Scene {
         };
     }
     builder.build().unwrap_or_else(|error| panic!("scene {trial}: {error}"))
+}
+
+/// The scenes that come with the crate, small.
+#[test]
+fn no_sample_of_a_shipped_scene_is_not_finite() {
+    for entry in std::fs::read_dir("assets").unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
+        let loaded = read_scene(&path, &["film.resolution=[80,60]", "sampler.spp=16"]).unwrap();
+        let rendered = render(&loaded.scene, &RenderOptions::default()).unwrap();
+        let path = path.display();
+        assert_eq!((rendered.non_finite, rendered.counters.rejected), (0, 0), "{path}");
+        assert!(rendered.picture.color.iter().any(|color| !color.is_black()), "{path}");
+    }
 }
 
 /// Seen to fail with a point light's falloff that is not guarded at the light itself, and with an area light's

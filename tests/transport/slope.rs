@@ -10,7 +10,7 @@ use crate::statistics::{bands, picture};
 
 const SEEDS: u64 = 8;
 
-/// The root of the mean square error over the picture for 4, 8, ... 512 samples, against a reference of 65,536
+/// The root of the mean square error over the picture for 4, 8, ... 512 samples, against a reference of 32,768
 /// others: the slope of its logarithm over that of the number, by least squares; the median of 8 seeds.
 fn slope(kind: SamplerKind, reference: &[(f64, f64)]) -> f64 {
     let mut slopes: Vec<f64> = (0..SEEDS)

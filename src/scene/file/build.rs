@@ -36,6 +36,7 @@ pub fn build(
             }
             // A light knows where it shines from, a file says where to.
             LightDescription::Distant { direction, irradiance } => {
+                // There is one for every direction, which what was read is.
                 let light = DistantLight::new(-direction, irradiance.into());
                 light.into_iter().fold(builder, SceneBuilder::light)
             }

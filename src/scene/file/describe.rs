@@ -197,12 +197,13 @@ fn material(section: &Section) -> Result<MaterialDescription, Fault> {
 }
 
 fn light(section: &Section) -> Result<LightDescription, Fault> {
+    #[derive(Clone, Copy)]
     enum Kind {
         Point,
         Distant,
         Sky,
     }
-    let kinds = [("point", &Kind::Point), ("distant", &Kind::Distant), ("sky", &Kind::Sky)];
+    let kinds = [("point", Kind::Point), ("distant", Kind::Distant), ("sky", Kind::Sky)];
     match section.require_choice("type", &kinds)? {
         Kind::Point => {
             section.only(&["type", "position", "intensity"])?;

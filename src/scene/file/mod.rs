@@ -82,17 +82,17 @@ pub fn read_scene(path: &Path, overrides: &[&str]) -> Result<LoadedScene, SceneF
 /// | | `crop` | the part to render, `[x0, y0, x1, y1]` without column x1 and row y1 | all |
 /// | | `display` | the curve of a PNG: `"srgb"`, or `"exposure"` for 1 - exp(-4 L) | `"srgb"` |
 /// | | `filter` | `"box"`, `"tent"`, `"gaussian"` or `"blackman-harris"` | `"box"` |
-/// | | `filter_radius` | in pixels, above 0, for all but `"box"` | 1 (tent), 1.5 |
+/// | | `filter_radius` | in pixels, above 0 and up to 16, for all but `"box"` | 1 (tent), 1.5 |
 /// | | `filter_sigma` | in pixels, above 0, for `"gaussian"` | 0.5 |
 /// | `[sampler]` | `type` | `"independent"`, `"stratified"`, `"sobol"` or `"blue-noise"` | `"independent"` |
 /// | | `spp` | samples per pixel, at least 1 | 64 |
 /// | | `seed` | each gives other samples | 0 |
-/// | | `replicates` | independent sets to tell the error from, for all but `"independent"` | 2 |
+/// | | `replicates` | sets to tell the error from, for all but `"independent"`; of them the largest number that divides `spp` | 2 |
 /// | `[integrator]` | `type` | `"chapter"`, `"direct"` or `"path"` | `"chapter"` |
 /// | | `highlight` | for `"chapter"`: whether to add the Blinn-Phong factor | false |
 /// | | `max_depth` | for `"path"`: the most reflections | 5 |
 /// | | `roulette` | for `"path"`: whether paths that carry little end at random | true |
-/// | | `strategy` | for both: how light is looked for, `"auto"`, `"mis"`, `"light"` or `"bsdf"` | `"auto"` |
+/// | | `strategy` | for `"direct"` and `"path"`: how light is looked for, `"auto"`, `"mis"`, `"light"` or `"bsdf"` | `"auto"` |
 /// | `[texture.NAME]` | `type` | `"constant"` | required |
 /// | | `value` | a number or `[red, green, blue]` | required |
 /// | `[material.NAME]` | `type` | `"matte"` | required |
@@ -108,7 +108,7 @@ pub fn read_scene(path: &Path, overrides: &[&str]) -> Result<LoadedScene, SceneF
 /// | `[shape.NAME]` | `type` | `"obj"` or `"rectangle"` | `"obj"` |
 /// | | `obj` | of `"obj"`: path of an OBJ file | required |
 /// | | `corner` | of `"rectangle"`, `[x, y, z]` | required |
-/// | | `edges` | of `"rectangle"`: two `[x, y, z]`; their cross product points outside | required |
+/// | | `edges` | of `"rectangle"`: two `[x, y, z]` from there; their cross product points outside | required |
 /// | | `material` | a material's name; a shape with `emission` may do without, and reflects nothing | required |
 /// | | `emission` | radiance that it sends out, in W / (m² sr), `[red, green, blue]` of at least 0 | none |
 /// | | `two_sided` | whether it does so on both sides, or outside alone | false |

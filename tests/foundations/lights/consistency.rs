@@ -34,7 +34,7 @@ fn densities_of_samples_and_of_rays_agree() {
         let mut rng = Rng::new(920, trial);
         let scale = rng.coordinate(4.0).abs();
         let mesh = placed(random_mesh(&mut rng), scale, Vec3::ZERO);
-        let light = AreaLight::new(&mesh, L, rng.bits() % 2 == 0).unwrap();
+        let light = AreaLight::new(&mesh, L, rng.bits().is_multiple_of(2)).unwrap();
         let accel = Accel::build(std::slice::from_ref(&mesh));
         let p = scale * rng.within(0.2, 20.0) * rng.direction();
         for _ in 0..10 {
