@@ -23,7 +23,7 @@ for name, default in [("scale", 0.3), ("lift", -1.45), ("threads", 2), ("res", 5
     ap.add_argument("--" + name, type=type(default), default=default)
 ap.add_argument("--lobe", default="target/release/lobe")
 ap.add_argument("--out", default=tempfile.mkdtemp(prefix="lobe-mitsuba-"))
-ap.add_argument("--reference-spp", type=int, default=4096)
+ap.add_argument("--reference-spp", type=int, default=2048)
 a = ap.parse_args()
 llvm = sorted(glob.glob("/usr/lib/*/libLLVM.so.19*"))
 if llvm: os.environ.setdefault("DRJIT_LIBLLVM_PATH", llvm[0])
@@ -201,7 +201,7 @@ def error():
             return statistics.median(rel(i) for i, _ in runs) - own, statistics.median(t for _, t in runs)
         # Their best: the lowest product of error and time, which is what a budget buys.
         samplers = ["independent", "stratified", "multijitter", "orthogonal", "ldsampler"]
-        sampler = min(samplers, key=lambda name: np.prod(by_their(name, 64)))
+        sampler = min(samplers, key=lambda name: np.prod(by_their(name, 16)))
         for spp in [16, 64, 256]:
             e, t = by_their(sampler, spp)
             ours = [by_lobe(scene, "--no-layers", "--time", f"{t:.4f}", "--seed", str(s), "--set", 'sampler.type="sobol"', "--set", "sampler.replicates=1") for s in range(a.runs)]
