@@ -99,7 +99,7 @@ fn crop_is_a_part_of_the_whole() {
     }
 }
 
-/// Passes take the samples that one pass takes. Seen to fail with passes that begin at their own size.
+/// Passes take the samples that one pass takes.
 #[test]
 fn passes_add_up_to_one() {
     for kind in SAMPLERS {

@@ -66,7 +66,7 @@ mod tests {
         sizes
     }
 
-    /// Seen to fail with a limit that is looked at only before a pass, and with no first pass when there is no time.
+    /// Doubled until the limit, or one pass where time allows no more.
     #[test]
     fn passes_double_up_to_the_limit() {
         let long = Some(Duration::from_secs(1 << 20));

@@ -63,7 +63,7 @@ impl Samples {
 mod tests {
     use super::*;
 
-    /// Whatever the wave's length, in the same order. Seen to fail with a wave that starts its set anew.
+    /// Whatever the wave's length, in the same order.
     #[test]
     fn samples_come_once_and_in_order() {
         let window = Window { min: UVec2::new(3, 5), max: UVec2::new(6, 7) };

@@ -40,8 +40,8 @@ fn estimate(integrator: IntegratorSettings, kind: SamplerKind) -> Vec<(f64, f64)
     bands(&picture(scene().integrator(integrator).sampler(sampler)))
 }
 
-/// Direct light, by both integrators. Seen to fail with the power heuristic's arguments exchanged on one side, with the
-/// second light given the first one's place, and with the choice's probability left out of the pdf.
+/// Direct light, by both integrators. Seen to fail with the power heuristic's arguments exchanged, at plain
+/// surfaces and at others.
 #[test]
 fn direct_light_has_one_value() {
     let direct = |strategy| IntegratorSettings::Direct { strategy };
@@ -55,8 +55,7 @@ fn direct_light_has_one_value() {
     }
 }
 
-/// Light of several reflections. Seen to fail with roulette that does not make up for what it ends, and with the pdf of
-/// the direction before the last one.
+/// Light of several reflections. Seen to fail with the power heuristic's arguments exchanged at rough surfaces.
 #[test]
 fn paths_have_one_value() {
     let path = |roulette, strategy| IntegratorSettings::Path { max_depth: 5, roulette, strategy };
@@ -70,7 +69,7 @@ fn paths_have_one_value() {
     }
 }
 
-/// Seen to fail with the second coordinate of Sobol points taken for the first.
+/// All samplers, with the strategy that suits each light.
 #[test]
 fn all_samplers_give_one_value() {
     let auto = IntegratorSettings::path(4);

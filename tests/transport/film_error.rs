@@ -11,8 +11,8 @@ use crate::statistics::{bands, picture};
 const SEEDS: u64 = 32;
 
 /// The standard error that the film claims over the true one, which the scatter of 32 seeds tells. Over all
-/// bands of 32 × 32 pixels, the ratio itself is known to 1 %. Seen to fail with the variance of samples claimed for
-/// stratified ones (1.5), and with the variance of a set in place of that of the mean (1.41).
+/// bands of 32 × 32 pixels, the ratio itself is known to 1 %. Seen to fail with
+/// stratified samples taken for independent ones, and with the variance of a set in place of that of the mean.
 #[test]
 fn the_claimed_error_is_the_true_one() {
     let lamp =

@@ -1,7 +1,7 @@
 //! Light transport: images whose truth is a formula, and estimators that have to agree.
 //!
-//! Statistics use the error that the film itself reports. Each test says in its comment which break of the
-//! code it was seen to catch.
+//! Statistics use the error that the film itself reports. Where a test was seen to catch a break of the code, its
+//! comment says which.
 
 #[path = "../scenes/mod.rs"]
 mod scenes;

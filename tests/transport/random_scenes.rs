@@ -173,8 +173,7 @@ fn no_sample_of_a_shipped_scene_is_not_finite() {
     }
 }
 
-/// Seen to fail with a point light's falloff that is not guarded at the light itself, and with an area light's
-/// pdf for points in its own plane.
+/// Not finite, refused by a Bsdf, or negative: none of a thousand scenes has such a sample.
 #[test]
 fn no_sample_is_not_finite() {
     let mut lit = 0;

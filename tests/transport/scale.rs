@@ -37,7 +37,7 @@ fn scene(scale: f32, shift: f32, seed: u64) -> SceneBuilder {
         ))
 }
 
-/// Seen to fail with a ray origin moved by 1e-3, and with an intensity that is not scaled.
+/// Seen to fail with ray origins moved by 1e-3 more.
 #[test]
 fn scale_and_shift_change_nothing_but_noise() {
     let reference = bands(&picture(scene(1.0, 0.0, 1)));

@@ -42,8 +42,7 @@ fn render(kind: SamplerKind, spp: u32, seed: u64) -> Vec<(f64, f64)> {
     bands(&picture(scene))
 }
 
-/// Independent samples fall with -0.5, Sobol's by more. Seen to fail with a Sobol sampler that has the same bits as the
-/// independent one.
+/// Independent samples fall with -0.5, Sobol's by more.
 #[test]
 fn sobol_converges_faster_under_the_sky() {
     let reference = render(SamplerKind::Sobol, 1 << 15, 999);

@@ -201,7 +201,10 @@ fn extremes_have_points_too() {
                 let case = Case { origin, corner: Vec3::ZERO, edges };
                 let Some(seen) = case.seen() else { continue };
                 let solid_angle = seen.solid_angle();
-                assert!((0.0..=1.000_01 * std::f32::consts::TAU).contains(&solid_angle), "{solid_angle} from {origin}");
+                assert!(
+                    (0.0..=1.000_01 * std::f32::consts::TAU).contains(&solid_angle),
+                    "{solid_angle} from {origin}"
+                );
                 for u in EDGE.into_iter().flat_map(|x| EDGE.map(|y| Vec2::new(x, y))) {
                     let p = seen.sample(u) / scale;
                     let on = [X, Y].map(|e| p.dot(e) / 9.0);
