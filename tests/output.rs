@@ -597,7 +597,7 @@ fn the_openexr_tools_read_the_same() {
             let (name, kind) = line.split_once(", 32-bit ")?;
             let samples = name.trim() == "samples.N";
             let expected = if samples { "unsigned integer" } else { "floating-point" };
-            (kind == format!("{expected}, sampling 1 1")).then_some(name.trim())
+            kind.starts_with(&format!("{expected}, sampling 1 1")).then_some(name.trim())
         });
         assert_eq!(found.collect::<Vec<_>>(), names);
         for line in [
