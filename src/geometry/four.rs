@@ -48,6 +48,12 @@ impl Vec3x4 {
         }
     }
 
+    /// The first vector.
+    #[inline(always)]
+    pub fn first(self) -> Vec3 {
+        Vec3::new(self.x.x, self.y.x, self.z.x)
+    }
+
     /// The vectors one by one, each with its element of `w` behind it.
     #[inline(always)]
     pub fn rows(self, w: Vec4) -> [Vec4; 4] {

@@ -1,5 +1,6 @@
 //! Geometry: rays, shading frames and their trigonometry, error-bounded points, float helpers.
 
+pub(crate) mod angle;
 mod bounded;
 pub mod float;
 pub(crate) mod four;

@@ -8,40 +8,30 @@ use crate::Spectrum;
 use crate::geometry::Ray;
 use crate::geometry::float::ONE_MINUS_EPSILON;
 use crate::geometry::four::{Vec3x4, four, rays_x4};
-use crate::light::PointLight;
+use crate::light::LightSamplesX4;
 use crate::scene::Scene;
 
-/// Four of [`LightSample`](crate::light::LightSample), of which some may be missing.
+/// Light samples, and what else is known of them.
 pub struct LightSamples {
-    exists: BVec4A,
-    li: [Spectrum; 4],
-    wi: Vec3x4,
-    /// With the probability of the light.
-    pdf: Vec4,
-    /// Where it comes from, if `is_near`.
-    from: Vec3x4,
-    is_near: BVec4A,
+    samples: LightSamplesX4,
     /// Whether reflection may find the same light.
     weighed: BVec4A,
 }
 
 impl LightSamples {
-    /// Samples of one point light for the points `p`.
+    /// Samples of one light for the points `p`, if it is of a kind that can be sampled for all four at once.
     #[inline(always)]
-    pub fn of_point(light: PointLight, probability: f32, p: Vec3x4) -> Self {
-        let from = Vec3x4::splat(light.position());
-        let to_light = from - p;
-        let distance2 = to_light.length_squared();
-        let falloff = distance2.to_array();
-        Self {
-            exists: distance2.cmpgt(Vec4::ZERO),
-            li: four(|i| light.intensity() / falloff[i]),
-            wi: to_light.divided_by(distance2.sqrt()),
-            pdf: Vec4::splat(probability),
-            from,
-            is_near: BVec4A::TRUE,
-            weighed: BVec4A::FALSE,
-        }
+    pub fn of_known(
+        transport: &Transport,
+        scene: &Scene,
+        number: usize,
+        p: Vec3x4,
+        u: [Vec2; 4],
+    ) -> Option<Self> {
+        let mut samples = scene.known_lights()[number]?.sample_x4(p, u)?;
+        samples.pdf *= transport.probability[number];
+        let weighed = transport.finds && transport.visible[number];
+        Some(Self { samples, weighed: if weighed { BVec4A::TRUE } else { BVec4A::FALSE } })
     }
 
     /// A sample for each of the points `p`, of the light with the number beside its place on the light.
@@ -66,39 +56,40 @@ impl LightSamples {
             from[i] = sample.from.unwrap_or_default();
             weighed[i] = transport.finds && transport.visible[number];
         }
-        Self {
+        let samples = LightSamplesX4 {
             exists: BVec4A::from_array(exists),
             li,
             wi: Vec3x4::new(four(|i| &wi[i])),
             pdf: Vec4::from_array(pdf),
             from: Vec3x4::new(four(|i| &from[i])),
             is_near: BVec4A::from_array(is_near),
-            weighed: BVec4A::from_array(weighed),
-        }
+        };
+        Self { samples, weighed: BVec4A::from_array(weighed) }
     }
 
     /// Shadow rays, and what each carries, if there are any. Bit i of the mask is for the i-th.
     #[inline(always)]
     pub fn reflected(&self, hits: &PlainHits) -> Option<(u32, [Ray; 4], [Spectrum; 4])> {
-        let (reflect, wi_n) = hits.reflect(self.wi);
-        let mask = (reflect & self.exists).bitmask();
+        let LightSamplesX4 { exists, ref li, wi, pdf, from, is_near } = self.samples;
+        let (reflect, wi_n) = hits.reflect(wi);
+        let mask = (reflect & exists).bitmask();
         if mask == 0 {
             return None;
         }
         let mut weight = Vec4::ONE;
         if self.weighed.any() {
-            let ratio = hits.pdf(wi_n) / self.pdf;
+            let ratio = hits.pdf(wi_n) / pdf;
             let weighed = 1.0 / (1.0 + ratio * ratio);
             weight = Vec4::select(self.weighed, weighed, weight);
         }
-        let factor = (wi_n.abs() * weight / self.pdf).to_array();
+        let factor = (wi_n.abs() * weight / pdf).to_array();
         let reflected = hits.reflected();
-        let carried = four(|i| reflected[i] * self.li[i] * factor[i]);
-        let towards = Vec3x4::select(self.is_near, self.from - hits.at.p, self.wi);
+        let carried = four(|i| reflected[i] * li[i] * factor[i]);
+        let towards = Vec3x4::select(is_near, from - hits.at.p, wi);
         let o = hits.at.ray_origins(hits.n, towards);
-        let d = Vec3x4::select(self.is_near, self.from - o, self.wi);
+        let d = Vec3x4::select(is_near, from - o, wi);
         let t_max =
-            Vec4::select(self.is_near, Vec4::splat(ONE_MINUS_EPSILON), Vec4::splat(f32::INFINITY));
+            Vec4::select(is_near, Vec4::splat(ONE_MINUS_EPSILON), Vec4::splat(f32::INFINITY));
         Some((mask, rays_x4(o, d, t_max), carried))
     }
 }

@@ -168,12 +168,15 @@ impl Scatter<'_> {
     #[inline(always)]
     fn lights(&self, slot: usize, turn: usize, p: Vec3x4) -> LightSamples {
         let Self { transport, scene, .. } = self;
-        if let Draw::Each(lights) = &transport.draw
-            && let Some(light) = transport.points[lights[slot]]
-        {
-            return LightSamples::of_point(light, transport.probability[lights[slot]], p);
+        let drawn = four(|i| self.drawn(slot, turn + i));
+        if let Draw::Each(lights) = &transport.draw {
+            let u = four(|i| drawn[i].1);
+            let known = LightSamples::of_known(transport, scene, lights[slot], p, u);
+            if let Some(known) = known {
+                return known;
+            }
         }
-        LightSamples::of_any(transport, scene, p, four(|i| self.drawn(slot, turn + i)))
+        LightSamples::of_any(transport, scene, p, drawn)
     }
 
     /// Four plain hits.

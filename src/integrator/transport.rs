@@ -10,7 +10,7 @@ use glam::Vec3;
 use super::paths::{Path, Paths};
 use super::wave::{Wave, dimension};
 use crate::Spectrum;
-use crate::light::{LightHit, PointLight};
+use crate::light::LightHit;
 use crate::sampling::{Discrete, SampleId, Sampler};
 use crate::scene::{LightStrategy, Scene};
 
@@ -34,8 +34,6 @@ pub struct Transport {
     pub(super) probability: Vec<f32>,
     /// By light: whether rays can meet it.
     pub(super) visible: Vec<bool>,
-    /// By light: those that are points.
-    pub(super) points: Vec<Option<PointLight>>,
     /// Lights that rays find which leave the scene.
     infinite: Vec<usize>,
     /// Whether there are lights that rays can meet on surfaces.
@@ -118,7 +116,6 @@ impl Transport {
             draw,
             probability,
             visible,
-            points: (0..lights.len()).map(|i| scene.point_light(i)).collect(),
             on_surfaces: scene.lights_on_surfaces().next().is_some(),
             infinite,
             finds: strategy != LightStrategy::Light,

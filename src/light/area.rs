@@ -4,7 +4,7 @@ use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
-use super::rectangle::Rectangle;
+use super::rectangle::{Rectangle, RectangleLight};
 use super::{BoundingSphere, Light, LightHit, LightSample};
 use crate::Spectrum;
 use crate::geometry::float::gamma;
@@ -54,6 +54,12 @@ impl AreaLight {
         Some(Self { mesh, triangles, area, rectangle, radiance, two_sided })
     }
 
+    /// The light as a rectangle, if it is one.
+    pub(super) fn rectangle(&self) -> Option<RectangleLight> {
+        let Self { rectangle, radiance, two_sided, .. } = *self;
+        Some(RectangleLight { rectangle: rectangle?, radiance, two_sided })
+    }
+
     /// A point drawn uniformly over the area, and the unit outward normal there.
     #[inline]
     fn sample_area(&self, u: Vec2) -> (BoundedPoint, Vec3) {
@@ -88,15 +94,13 @@ impl Light for AreaLight {
 
     #[inline]
     fn sample_li(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
-        let seen = self.rectangle.as_ref().and_then(|rectangle| {
-            rectangle.seen_from(p).map(|(seen, outside)| (rectangle, seen, outside))
+        let on_rectangle = self.rectangle.and_then(|rectangle| {
+            let (point, pdf, outside) = rectangle.sample(p, u)?;
+            Some((point, rectangle.normal(), pdf, outside))
         });
-        let (point, n, pdf) = match seen {
-            Some((_, _, false)) if !self.two_sided => return None,
-            Some((rectangle, seen, _)) => {
-                let (point, n) = rectangle.sample(&seen, u);
-                (point, n, (1.0 / seen.solid_angle) as f32)
-            }
+        let (point, n, pdf) = match on_rectangle {
+            Some((.., false)) if !self.two_sided => return None,
+            Some((point, n, pdf, _)) => (point, n, pdf),
             None => {
                 let (point, n) = self.sample_area(u);
                 let to_light = point.p - p;
@@ -118,8 +122,8 @@ impl Light for AreaLight {
 
     #[inline]
     fn pdf_li(&self, hit: &LightHit) -> f32 {
-        let pdf = match self.rectangle.as_ref().and_then(|r| r.seen_from(hit.origin)) {
-            Some((seen, outside)) if outside || self.two_sided => (1.0 / seen.solid_angle) as f32,
+        let pdf = match self.rectangle.and_then(|rectangle| rectangle.solid_angle(hit.origin)) {
+            Some((solid_angle, outside)) if outside || self.two_sided => 1.0 / solid_angle,
             Some(_) => 0.0,
             None => {
                 let cos_theta = -hit.n.dot(hit.wi);

@@ -2,12 +2,14 @@
 
 mod area;
 mod distant;
+mod known;
 mod point;
 mod rectangle;
 mod sky;
 
 pub use area::AreaLight;
 pub use distant::DistantLight;
+pub(crate) use known::{KnownLight, LightSamplesX4};
 pub use point::PointLight;
 pub use sky::SkyLight;
 

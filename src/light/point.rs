@@ -1,9 +1,10 @@
 //! [`PointLight`].
 
-use glam::{Vec2, Vec3};
+use glam::{BVec4A, Vec2, Vec3, Vec4};
 
-use super::{BoundingSphere, Light, LightSample};
+use super::{BoundingSphere, Light, LightSample, LightSamplesX4};
 use crate::Spectrum;
+use crate::geometry::four::{Vec3x4, four};
 
 /// A light without extent that shines alike in all directions (PBRT 3rd edition, section 12.3).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,14 +19,21 @@ impl PointLight {
         Self { position, intensity }
     }
 
-    #[inline]
-    pub(crate) fn position(&self) -> Vec3 {
-        self.position
-    }
-
-    #[inline]
-    pub(crate) fn intensity(&self) -> Spectrum {
-        self.intensity
+    /// What `sample_li` gives for each of four points.
+    #[inline(always)]
+    pub(super) fn sample_x4(&self, p: Vec3x4) -> LightSamplesX4 {
+        let from = Vec3x4::splat(self.position);
+        let to_light = from - p;
+        let distance2 = to_light.length_squared();
+        let falloff = distance2.to_array();
+        LightSamplesX4 {
+            exists: distance2.cmpgt(Vec4::ZERO),
+            li: four(|i| self.intensity / falloff[i]),
+            wi: to_light.divided_by(distance2.sqrt()),
+            pdf: Vec4::ONE,
+            from,
+            is_near: BVec4A::TRUE,
+        }
     }
 }
 

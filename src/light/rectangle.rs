@@ -1,10 +1,13 @@
-//! [`Rectangle`]: two triangles that are one.
+//! [`Rectangle`]: two triangles that are one; [`RectangleLight`]: one that shines.
 
-use glam::{DVec2, DVec3, Vec2, Vec3};
+use glam::{BVec4A, DVec2, DVec3, Vec2, Vec3, Vec4};
 
+use super::LightSamplesX4;
+use crate::Spectrum;
 use crate::geometry::BoundedPoint;
 use crate::geometry::float::gamma;
-use crate::sampling::{LEAST_SOLID_ANGLE, Seen};
+use crate::geometry::four::{BoundedPointx4, Vec3x4};
+use crate::sampling::{LEAST_SOLID_ANGLE, Seen, SeenX4};
 
 /// By how much of its shorter edge a corner may be out of place.
 const MOST_SKEW: f64 = 1e-4;
@@ -20,7 +23,24 @@ pub(super) struct Rectangle {
     error: Vec3,
 }
 
+/// Points of a rectangle, one for each of four that see it.
+pub(super) struct RectanglePoints {
+    pub(super) p: Vec3x4,
+    /// Density over solid angle.
+    pub(super) pdf: Vec4,
+    /// Which are seen from the outer side.
+    pub(super) outside: BVec4A,
+    /// For which all this could be found in f32.
+    pub(super) sound: BVec4A,
+}
+
 impl Rectangle {
+    /// The unit outward normal.
+    #[inline]
+    pub(super) fn normal(&self) -> Vec3 {
+        self.normal.as_vec3()
+    }
+
     /// The rectangle that two triangles with the outward normal `outward` make up, if they do: they share
     /// their longest side, the other two of each are at right angles, and all four corners are where they
     /// have to be, up to the rounding of their coordinates. Corners are compared by place.
@@ -52,14 +72,58 @@ impl Rectangle {
         let normal = x.cross(edge_y).normalize();
         let normal = if normal.dot(outward.as_dvec3()) < 0.0 { -normal } else { normal };
         let y = (edge_y - x * x.dot(edge_y)).normalize();
-        let error = gamma(8) * largest + 2.0 * Vec3::splat(slack as f32).min(gamma(8) * largest);
+        // And a ray's distance to a plane is known up to what rounding does to that of its farthest corner.
+        let reach = Vec3::splat(gamma(8) * (size.x + size.y) as f32);
+        let error =
+            gamma(16) * largest + reach + 2.0 * Vec3::splat(slack as f32).min(gamma(8) * largest);
         Some(Self { corner, axes: [x, y], normal, size, error })
     }
 
-    /// The rectangle as `p` sees it; `None` where light points are better drawn by area: under a solid
-    /// angle that is small, or zero. The second is whether `p` is on the outer side.
+    /// The solid angle under which `p` sees the rectangle, and whether `p` is on the outer side; `None` where light
+    /// points are better drawn by area: under a solid angle that is small, or zero.
     #[inline]
-    pub(super) fn seen_from(&self, p: Vec3) -> Option<(Seen, bool)> {
+    pub(super) fn solid_angle(&self, p: Vec3) -> Option<(f32, bool)> {
+        let (seen, outside) = self.seen_from_x4(Vec3x4::splat(p));
+        if seen.sound.test(0) {
+            return Some((seen.solid_angle.x, outside.test(0)));
+        }
+        let (seen, outside) = self.seen_from(p)?;
+        Some((seen.solid_angle as f32, outside))
+    }
+
+    /// A point drawn uniformly over that solid angle, its density, and whether `p` is on the outer side.
+    #[inline]
+    pub(super) fn sample(&self, p: Vec3, u: Vec2) -> Option<(BoundedPoint, f32, bool)> {
+        let four = self.sample_x4(Vec3x4::splat(p), [u; 4]);
+        if four.sound.test(0) {
+            let point = BoundedPoint { p: four.p.first(), error: self.error };
+            return Some((point, four.pdf.x, four.outside.test(0)));
+        }
+        let (seen, outside) = self.seen_from(p)?;
+        let moved = seen.sample(u) - seen.start;
+        let point = self.corner + moved.x * self.axes[0] + moved.y * self.axes[1];
+        let point = BoundedPoint { p: point.as_vec3(), error: self.error };
+        Some((point, (1.0 / seen.solid_angle) as f32, outside))
+    }
+
+    /// The same for four points, where f32 is enough.
+    #[inline(always)]
+    pub(super) fn sample_x4(&self, p: Vec3x4, u: [Vec2; 4]) -> RectanglePoints {
+        let (seen, outside) = self.seen_from_x4(p);
+        let [x, y] = seen.sample(u);
+        let [axis_x, axis_y] = self.axes.map(|axis| Vec3x4::splat(axis.as_vec3()));
+        let corner = Vec3x4::splat(self.corner.as_vec3());
+        RectanglePoints {
+            p: corner + axis_x * x + axis_y * y,
+            pdf: 1.0 / seen.solid_angle,
+            outside,
+            sound: seen.sound,
+        }
+    }
+
+    /// The rectangle as `p` sees it, in f64, and whether `p` is on the outer side.
+    #[inline]
+    fn seen_from(&self, p: Vec3) -> Option<(Seen, bool)> {
         let offset = self.corner - p.as_dvec3();
         let start = DVec2::new(offset.dot(self.axes[0]), offset.dot(self.axes[1]));
         let z = offset.dot(self.normal);
@@ -67,11 +131,44 @@ impl Rectangle {
         (seen.solid_angle > LEAST_SOLID_ANGLE).then_some((seen, z < 0.0))
     }
 
-    /// A point of the rectangle, and its unit outward normal.
-    #[inline]
-    pub(super) fn sample(&self, seen: &Seen, u: Vec2) -> (BoundedPoint, Vec3) {
-        let moved = seen.sample(u) - seen.start;
-        let p = self.corner + moved.x * self.axes[0] + moved.y * self.axes[1];
-        (BoundedPoint { p: p.as_vec3(), error: self.error }, self.normal.as_vec3())
+    #[inline(always)]
+    fn seen_from_x4(&self, p: Vec3x4) -> (SeenX4, BVec4A) {
+        let offset = Vec3x4::splat(self.corner.as_vec3()) - p;
+        let along = |axis: DVec3| offset.dot(Vec3x4::splat(axis.as_vec3()));
+        let z = along(self.normal);
+        let start = [along(self.axes[0]), along(self.axes[1])];
+        (SeenX4::new(start, self.size.as_vec2(), z.abs()), z.cmplt(Vec4::ZERO))
+    }
+}
+
+/// A rectangle that shines, to be sampled for four points at once.
+#[derive(Clone, Copy)]
+pub(crate) struct RectangleLight {
+    pub(super) rectangle: Rectangle,
+    pub(super) radiance: Spectrum,
+    pub(super) two_sided: bool,
+}
+
+impl RectangleLight {
+    /// What [`AreaLight`](super::AreaLight) gives for each of four points; `None` if that takes more than f32.
+    #[inline(always)]
+    pub(super) fn sample_x4(&self, p: Vec3x4, u: [Vec2; 4]) -> Option<LightSamplesX4> {
+        let points = self.rectangle.sample_x4(p, u);
+        let to_light = points.p - p;
+        let length2 = to_light.length_squared();
+        let fine = length2.cmpgt(Vec4::splat(1e-30)) & length2.cmplt(Vec4::splat(1e30));
+        if !(points.sound & fine).all() {
+            return None;
+        }
+        let error = Vec3x4::splat(self.rectangle.error) + to_light.abs() * Vec4::splat(gamma(8));
+        let point = BoundedPointx4 { p: points.p, error };
+        Some(LightSamplesX4 {
+            exists: if self.two_sided { BVec4A::TRUE } else { points.outside },
+            li: [self.radiance; 4],
+            wi: to_light.divided_by(length2.sqrt()),
+            pdf: points.pdf,
+            from: point.ray_origins(Vec3x4::splat(self.rectangle.normal()), -to_light),
+            is_near: BVec4A::TRUE,
+        })
     }
 }

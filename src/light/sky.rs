@@ -2,10 +2,11 @@
 
 use std::f32::consts::PI;
 
-use glam::{Vec2, Vec3};
+use glam::{BVec4A, Vec2, Vec3, Vec4};
 
-use super::{BoundingSphere, Light, LightHit, LightSample};
+use super::{BoundingSphere, Light, LightHit, LightSample, LightSamplesX4};
 use crate::Spectrum;
+use crate::geometry::four::Vec3x4;
 use crate::sampling::uniform_sphere;
 
 /// The same radiance from every direction: an overcast sky all around, or a furnace to test in.
@@ -18,6 +19,20 @@ impl SkyLight {
     /// A sky of the radiance `radiance`, in W / (m² sr).
     pub fn new(radiance: Spectrum) -> Self {
         Self { radiance }
+    }
+
+    /// What `sample_li` gives for each of four points.
+    #[inline(always)]
+    pub(super) fn sample_x4(&self, u: [Vec2; 4]) -> LightSamplesX4 {
+        let wi = uniform_sphere::sample_x4(u);
+        LightSamplesX4 {
+            exists: BVec4A::TRUE,
+            li: [self.radiance; 4],
+            wi: wi * (1.0 / wi.length_squared().sqrt()),
+            pdf: Vec4::splat(uniform_sphere::pdf()),
+            from: Vec3x4::splat(Vec3::ZERO),
+            is_near: BVec4A::FALSE,
+        }
     }
 }
 

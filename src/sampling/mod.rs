@@ -17,7 +17,7 @@ pub use independent::IndependentSampler;
 pub use sampler::{SampleId, Sampler};
 pub use sobol::SobolSampler;
 pub use stratified::StratifiedSampler;
-pub(crate) use warp::{LEAST_SOLID_ANGLE, Seen};
+pub(crate) use warp::{LEAST_SOLID_ANGLE, Seen, SeenX4};
 pub use warp::{
     SphericalRectangle, concentric_disk, cosine_hemisphere, uniform_cone, uniform_disk,
     uniform_hemisphere, uniform_sphere, uniform_triangle,

@@ -11,7 +11,7 @@ use crate::accel::Accel;
 use crate::bxdf::LambertianReflection;
 use crate::camera::{Camera, CameraError, CameraSettings};
 use crate::film::{Display, Filter, FilterError, FilterSampler, Window};
-use crate::light::{AreaLight, Light, PointLight};
+use crate::light::{AreaLight, KnownLight, Light};
 use crate::material::{Material, MatteMaterial};
 use crate::shape::{MeshError, TriangleMesh};
 
@@ -70,7 +70,7 @@ pub struct SceneBuilder {
     materials: BTreeMap<String, NewMaterial>,
     shapes: Vec<NewShape>,
     lights: Vec<Arc<dyn Light>>,
-    points: Vec<Option<PointLight>>,
+    known_lights: Vec<Option<KnownLight>>,
 }
 
 impl SceneBuilder {
@@ -171,7 +171,7 @@ impl SceneBuilder {
 
     /// Adds a light.
     pub fn light(mut self, light: impl Light + 'static) -> Self {
-        self.points.push((&light as &dyn Any).downcast_ref().copied());
+        self.known_lights.push(KnownLight::new(&light));
         self.lights.push(Arc::new(light));
         self
     }
@@ -203,7 +203,7 @@ impl SceneBuilder {
         let camera = self.checked_camera()?;
         let mut shapes = Vec::with_capacity(self.shapes.len());
         let mut meshes = Vec::with_capacity(self.shapes.len());
-        let mut lights = self.lights;
+        let (mut lights, mut known_lights) = (self.lights, self.known_lights);
         for NewShape { name, mesh, material, emission } in self.shapes {
             mesh.check().map_err(|error| SceneError::Mesh(name.clone(), error))?;
             let (material, lobe) = match material {
@@ -220,6 +220,7 @@ impl SceneBuilder {
                     AreaLight::new(&mesh, radiance, two_sided)
                 })
                 .map(|light| {
+                    known_lights.push(KnownLight::new(&light));
                     lights.push(Arc::new(light));
                     lights.len() - 1
                 });
@@ -243,7 +244,7 @@ impl SceneBuilder {
             meshes,
             filter: FilterSampler::new(self.film.filter)?,
             lights,
-            points: self.points,
+            known_lights,
             is_plain,
             accel,
             build_seconds: start.elapsed().as_secs_f64(),

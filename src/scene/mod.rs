@@ -20,7 +20,7 @@ use crate::camera::{Camera, CameraSettings};
 use crate::film::FilterSampler;
 use crate::geometry::Ray;
 use crate::interaction::SurfaceInteraction;
-use crate::light::{BoundingSphere, Light, PointLight};
+use crate::light::{BoundingSphere, KnownLight, Light};
 use crate::material::Material;
 use crate::shape::TriangleMesh;
 
@@ -58,8 +58,8 @@ pub struct Scene {
     shapes: Vec<Shape>,
     meshes: Vec<TriangleMesh>,
     lights: Vec<Arc<dyn Light>>,
-    /// By light: those that are points. It may be shorter.
-    points: Vec<Option<PointLight>>,
+    /// By light: those of kinds that are sampled four at a time.
+    known_lights: Vec<Option<KnownLight>>,
     is_plain: bool,
     accel: Accel,
     build_seconds: f64,
@@ -156,9 +156,9 @@ impl Scene {
         self.shapes.iter().filter_map(|shape| shape.light)
     }
 
-    /// The point light with this number, if it is one.
-    pub(crate) fn point_light(&self, number: usize) -> Option<PointLight> {
-        self.points.get(number).copied().flatten()
+    /// The lights of kinds that can be sampled four at a time, by their numbers.
+    pub(crate) fn known_lights(&self) -> &[Option<KnownLight>] {
+        &self.known_lights
     }
 
     /// The only lobe that the surface has at a hit, where it has a constant one on flat triangles. A miss

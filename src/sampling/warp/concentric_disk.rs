@@ -8,6 +8,7 @@ use std::f32::consts::{FRAC_1_PI, FRAC_PI_4};
 
 use glam::{Vec2, Vec2Swizzles, Vec4};
 
+use crate::geometry::angle::{eighth_turn, eighth_turn_x4};
 use crate::geometry::four::four;
 
 /// A point of the unit disk.
@@ -45,38 +46,6 @@ pub(super) fn polar_x4(u: [Vec2; 4]) -> (Vec4, [Vec4; 2]) {
     let swap = x_larger | center;
     (r, [Vec4::select(swap, cos, sin), Vec4::select(swap, sin, cos)])
 }
-
-/// Four times [`eighth_turn`].
-#[inline(always)]
-fn eighth_turn_x4(share: Vec4) -> [Vec4; 2] {
-    let x = FRAC_PI_4 * share;
-    let x2 = x * x;
-    let cos = 1.0 + x2 * (-0.5 + x2 * (C4 + x2 * (C6 + x2 * C8)));
-    let sin = x + x * x2 * (S3 + x2 * (S5 + x2 * (S7 + x2 * S9)));
-    [cos, sin]
-}
-
-/// The unit vector at the angle π/4 · `share`, for a share in `[-1, 1]`.
-///
-/// The series of cosine and sine up to the terms that f32 can see at an eighth of a turn: within 2⁻²³,
-/// faster than the general functions, and the same on every platform.
-#[inline]
-fn eighth_turn(share: f32) -> Vec2 {
-    let x = FRAC_PI_4 * share;
-    let x2 = x * x;
-    // Horner's rule on 1/n!, with alternating signs.
-    let cos = 1.0 + x2 * (-0.5 + x2 * (C4 + x2 * (C6 + x2 * C8)));
-    let sin = x + x * x2 * (S3 + x2 * (S5 + x2 * (S7 + x2 * S9)));
-    Vec2::new(cos, sin)
-}
-
-const C4: f32 = 1.0 / 24.0;
-const C6: f32 = -1.0 / 720.0;
-const C8: f32 = 1.0 / 40_320.0;
-const S3: f32 = -1.0 / 6.0;
-const S5: f32 = 1.0 / 120.0;
-const S7: f32 = -1.0 / 5_040.0;
-const S9: f32 = 1.0 / 362_880.0;
 
 /// Density over area, 1/π everywhere on the disk.
 #[inline]

@@ -8,6 +8,7 @@
 
 pub mod concentric_disk;
 pub mod cosine_hemisphere;
+mod seen_x4;
 mod spherical_rectangle;
 pub mod uniform_cone;
 pub mod uniform_disk;
@@ -15,21 +16,15 @@ pub mod uniform_hemisphere;
 pub mod uniform_sphere;
 pub mod uniform_triangle;
 
+pub(crate) use seen_x4::SeenX4;
 pub use spherical_rectangle::SphericalRectangle;
 pub(crate) use spherical_rectangle::{LEAST_SOLID_ANGLE, Seen};
 
 use std::f32::consts::TAU;
-
-use glam::Vec2;
 
 /// The share of a full turn at which (x, y) stands, in `[0, 1)`.
 fn turn(x: f32, y: f32) -> f32 {
     let share = y.atan2(x) / TAU;
     let turn = if share < 0.0 { share + 1.0 } else { share };
     turn.min(crate::geometry::float::ONE_MINUS_EPSILON)
-}
-
-/// The unit vector at `turn` of a full turn.
-fn unit_circle(turn: f32) -> Vec2 {
-    Vec2::from_angle(TAU * turn)
 }

@@ -10,7 +10,8 @@ use std::f32::consts::TAU;
 
 use glam::{Vec2, Vec3};
 
-use super::{turn, unit_circle};
+use super::turn;
+use crate::geometry::angle::unit_circle;
 
 /// h = 1 - cos θ for a cone of half angle θ up to π/2, from sin² θ in `[0, 1]`.
 #[inline]

@@ -7,7 +7,8 @@ use std::f32::consts::FRAC_1_PI;
 
 use glam::Vec2;
 
-use super::{turn, unit_circle};
+use super::turn;
+use crate::geometry::angle::unit_circle;
 
 /// A point of the unit disk. [`concentric_disk`](super::concentric_disk) distorts less.
 #[inline]

@@ -7,7 +7,8 @@ use std::f32::consts::TAU;
 
 use glam::{Vec2, Vec3};
 
-use super::{turn, unit_circle};
+use super::turn;
+use crate::geometry::angle::unit_circle;
 
 /// A unit vector with z ≥ 0.
 #[inline]
