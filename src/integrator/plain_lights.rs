@@ -19,19 +19,12 @@ pub struct LightSamples {
 }
 
 impl LightSamples {
-    /// Samples of one light for the points `p`, if it is of a kind that can be sampled for all four at once.
+    /// Samples of one light.
     #[inline(always)]
-    pub fn of_known(
-        transport: &Transport,
-        scene: &Scene,
-        number: usize,
-        p: Vec3x4,
-        u: [Vec2; 4],
-    ) -> Option<Self> {
-        let mut samples = scene.known_lights()[number]?.sample_x4(p, u)?;
+    pub fn new(transport: &Transport, number: usize, mut samples: LightSamplesX4) -> Self {
         samples.pdf *= transport.probability[number];
         let weighed = transport.finds && transport.visible[number];
-        Some(Self { samples, weighed: if weighed { BVec4A::TRUE } else { BVec4A::FALSE } })
+        Self { samples, weighed: if weighed { BVec4A::TRUE } else { BVec4A::FALSE } }
     }
 
     /// A sample for each of the points `p`, of the light with the number beside its place on the light.

@@ -12,8 +12,8 @@ use crate::Spectrum;
 use crate::accel::Hit;
 use crate::bxdf::{Arena, BxdfFlags, TransportMode};
 use crate::geometry::Ray;
-use crate::geometry::four::{Vec3x4, four, rays_x4};
-use crate::light::LightSample;
+use crate::geometry::four::{four, rays_x4};
+use crate::light::{KnownLight, LightSample};
 use crate::sampling::Sampler;
 use crate::scene::Scene;
 
@@ -164,19 +164,38 @@ impl Scatter<'_> {
         self.shadow.push(path.sample as usize, ray, carried);
     }
 
-    /// What the lights of a slot send to four points.
+    /// Sends shadow rays from four plain hits to the light of a slot, or to the lights. It is compiled for each kind
+    /// of known light apart.
     #[inline(always)]
-    fn lights(&self, slot: usize, turn: usize, p: Vec3x4) -> LightSamples {
-        let Self { transport, scene, .. } = self;
-        let drawn = four(|i| self.drawn(slot, turn + i));
-        if let Draw::Each(lights) = &transport.draw {
-            let u = four(|i| drawn[i].1);
-            let known = LightSamples::of_known(transport, scene, lights[slot], p, u);
-            if let Some(known) = known {
-                return known;
+    fn sample_lights(&mut self, slot: usize, turn: usize, hits: &PlainHits) {
+        let Self { transport, scene, .. } = *self;
+        let p = hits.at.p;
+        if let Draw::Each(lights) = &transport.draw
+            && let number = lights[slot]
+            && let Some(light) = &scene.known_lights()[number]
+        {
+            let u = || four(|i| self.drawn(slot, turn + i).1);
+            let new = |samples| LightSamples::new(transport, number, samples);
+            match light {
+                KnownLight::Point(light) => return self.send(hits, &new(light.sample_x4(p))),
+                KnownLight::Sky(light) => return self.send(hits, &new(light.sample_x4(u()))),
+                KnownLight::Rectangle(light) => {
+                    if let Some(samples) = light.sample_x4(p, u()) {
+                        return self.send(hits, &new(samples));
+                    }
+                }
             }
         }
-        LightSamples::of_any(transport, scene, p, drawn)
+        let drawn = four(|i| self.drawn(slot, turn + i));
+        self.send(hits, &LightSamples::of_any(transport, scene, p, drawn));
+    }
+
+    /// Sends shadow rays to where light comes from.
+    #[inline(always)]
+    fn send(&mut self, hits: &PlainHits, lights: &LightSamples) {
+        if let Some((mask, rays, carried)) = lights.reflected(hits) {
+            self.shadow.push_x4(mask, hits.paths, &rays, &carried);
+        }
     }
 
     /// Four plain hits.
@@ -184,10 +203,7 @@ impl Scatter<'_> {
     fn four(&mut self, turn: usize, hits: &PlainHits) {
         let Self { transport, scene, values, depth, .. } = *self;
         for slot in 0..transport.slots() {
-            let lights = self.lights(slot, turn, hits.at.p);
-            if let Some((mask, rays, carried)) = lights.reflected(hits) {
-                self.shadow.push_x4(mask, hits.paths, &rays, &carried);
-            }
+            self.sample_lights(slot, turn, hits);
         }
         if !transport.goes_on(depth) {
             return;

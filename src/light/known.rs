@@ -2,14 +2,14 @@
 
 use std::any::Any;
 
-use glam::{BVec4A, Vec2, Vec4};
+use glam::{BVec4A, Vec4};
 
 use super::rectangle::RectangleLight;
 use super::{AreaLight, Light, PointLight, SkyLight};
 use crate::Spectrum;
 use crate::geometry::four::Vec3x4;
 
-/// A light of a kind that has a way to do so.
+/// A light of a kind that has a way to do so: what [`Light::sample_li`] gives for each of four points, to the bit.
 #[derive(Clone, Copy)]
 pub(crate) enum KnownLight {
     Point(PointLight),
@@ -35,15 +35,5 @@ impl KnownLight {
         let sky = || light.downcast_ref().copied().map(Self::Sky);
         let area = || light.downcast_ref().and_then(AreaLight::rectangle).map(Self::Rectangle);
         point.or_else(sky).or_else(area)
-    }
-
-    /// What [`Light::sample_li`] gives for each of four points, to the bit; `None` if that takes more than f32.
-    #[inline(always)]
-    pub(crate) fn sample_x4(&self, p: Vec3x4, u: [Vec2; 4]) -> Option<LightSamplesX4> {
-        match self {
-            Self::Point(light) => Some(light.sample_x4(p)),
-            Self::Sky(light) => Some(light.sample_x4(u)),
-            Self::Rectangle(light) => light.sample_x4(p, u),
-        }
     }
 }

@@ -21,7 +21,7 @@ impl PointLight {
 
     /// What `sample_li` gives for each of four points.
     #[inline(always)]
-    pub(super) fn sample_x4(&self, p: Vec3x4) -> LightSamplesX4 {
+    pub(crate) fn sample_x4(&self, p: Vec3x4) -> LightSamplesX4 {
         let from = Vec3x4::splat(self.position);
         let to_light = from - p;
         let distance2 = to_light.length_squared();

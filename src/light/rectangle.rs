@@ -152,7 +152,7 @@ pub(crate) struct RectangleLight {
 impl RectangleLight {
     /// What [`AreaLight`](super::AreaLight) gives for each of four points; `None` if that takes more than f32.
     #[inline(always)]
-    pub(super) fn sample_x4(&self, p: Vec3x4, u: [Vec2; 4]) -> Option<LightSamplesX4> {
+    pub(crate) fn sample_x4(&self, p: Vec3x4, u: [Vec2; 4]) -> Option<LightSamplesX4> {
         let points = self.rectangle.sample_x4(p, u);
         let to_light = points.p - p;
         let length2 = to_light.length_squared();

@@ -23,7 +23,7 @@ impl SkyLight {
 
     /// What `sample_li` gives for each of four points.
     #[inline(always)]
-    pub(super) fn sample_x4(&self, u: [Vec2; 4]) -> LightSamplesX4 {
+    pub(crate) fn sample_x4(&self, u: [Vec2; 4]) -> LightSamplesX4 {
         let wi = uniform_sphere::sample_x4(u);
         LightSamplesX4 {
             exists: BVec4A::TRUE,
