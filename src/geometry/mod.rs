@@ -1,4 +1,5 @@
-//! Geometry: rays, shading frames and their trigonometry, error-bounded points, float helpers.
+//! Geometry: rays, shading frames and their trigonometry, angles, error-bounded points, four vectors at a time, float
+//! helpers.
 
 pub(crate) mod angle;
 mod bounded;

