@@ -9,7 +9,8 @@
 //! - [`shape`], triangle meshes and OBJ files; [`interaction`], what is known about a hit;
 //! - [`texture`], values over a surface; [`material`], which turns them into lobes; [`light`];
 //! - [`accel`], rays against all triangles; [`Camera`]; [`film`], sums of samples, PNG and EXR;
-//! - [`scene`], what there is to render; [`integrator`], how light is computed; [`render`](mod@render), the loop.
+//! - [`scene`], what there is to render; [`integrator`], how light is computed; [`render`](mod@render), the loop;
+//! - [`metrics`], how far an image is from another one.
 //!
 //! Traits are the doors for other crates: [`bxdf::BxDF`], [`texture::Texture`], [`material::Material`],
 //! [`light::Light`], [`sampling::Sampler`] and [`integrator::Integrator`]. What most callers need stands at the
@@ -27,6 +28,7 @@ pub mod integrator;
 pub mod interaction;
 pub mod light;
 pub mod material;
+pub mod metrics;
 pub mod render;
 pub mod sampling;
 pub mod scene;

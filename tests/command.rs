@@ -136,6 +136,48 @@ fn render_writes_what_it_is_asked_for() {
     assert_eq!(folder.files(), ["a.PNG", "b.png", "c.exr", "s.toml", "wall.obj"]);
 }
 
+/// Seen to fail with a limit that is never compared.
+#[test]
+fn compare_tells_errors_and_fails_above_limits() {
+    let folder = Folder::new("compare");
+    folder.prints("render s.toml -o a.png -o a.exr --seed 1 --quiet");
+    folder.prints("render s.toml -o b.png -o b.exr --seed 2 --spp 8 --quiet");
+    for (a, b) in [("a.png", "b.png"), ("a.exr", "b.exr")] {
+        let same = folder.prints(&format!("compare {a} {a} --fail-above mse=0"));
+        assert_eq!((value(&same, "flip"), value(&same, "psnr")), ("0.000000", "inf"));
+        let summary = folder.prints(&format!("compare {a} {b} --fail-above mae=1"));
+        let number = |key: &str| value(&summary, key).parse::<f64>().unwrap();
+        assert!(number("mse") > 0.0 && number("flip") > 0.0 && number("relmse") > 0.0);
+        assert!((number("rmse").powi(2) / number("mse") - 1.0).abs() < 1e-5);
+        let above = folder.run(&format!("compare {a} {b} --fail-above flip=1e-9"));
+        assert_eq!(above.status.code(), Some(1));
+        let said = String::from_utf8(above.stderr).unwrap();
+        assert!(
+            said.starts_with("error: flip is 0.")
+                && said.ends_with(", above the limit of 0.000000001\n"),
+            "{said}"
+        );
+    }
+    folder.write("c.jpg", "");
+    folder.write("c.exr", "");
+    folder.write("c.pfm", "PF\n2 1\n-1\nshort");
+    folder.fails(
+        "compare a.exr c.jpg",
+        "cannot read `c.jpg`: its name has to end in .exr, .pfm or .png",
+    );
+    folder.fails("compare a.exr c.pfm", "cannot read `c.pfm`: 2 x 1 pixels need 24 bytes, not 5");
+    folder.fails(
+        "compare a.exr no.exr",
+        "cannot read `no.exr`: No such file or directory (os error 2)",
+    );
+    folder.fails(
+        "compare a.exr b.png",
+        "one image is linear (EXR, PFM), the other one encoded for a screen (PNG): compare two of one kind",
+    );
+    assert_eq!(folder.run("compare a.exr c.exr").status.code(), Some(1));
+    assert_eq!(folder.run("compare a.exr b.exr --fail-above speed=1").status.code(), Some(2));
+}
+
 #[test]
 fn quiet_is_quiet() {
     let folder = Folder::new("quiet");

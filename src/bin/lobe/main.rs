@@ -1,5 +1,6 @@
-//! The command `lobe`: renders scene files, and tells what is in them.
+//! The command `lobe`: renders scene files, tells what is in them, and how far images are apart.
 
+mod compare;
 mod info;
 mod output;
 mod progress;
@@ -18,8 +19,9 @@ Examples:
   lobe render assets/chapter8.toml                      writes chapter8.png and chapter8.exr
   lobe render scene.toml -o a.png --spp 256 --set camera.fov=40
   lobe info scene.toml                                  triangles, bounds, tree, memory
+  lobe compare a.exr reference.exr                      errors, FLIP, and whether noise explains them
 
-`lobe help render` and `lobe help info` have more of them.";
+`lobe help render`, `lobe help info` and `lobe help compare` have more of them.";
 
 /// Renders scenes of triangle meshes with PBRT's materials and reflection.
 #[derive(Parser)]
@@ -33,12 +35,14 @@ struct Arguments {
 enum Command {
     Render(render::Arguments),
     Info(info::Arguments),
+    Compare(compare::Arguments),
 }
 
 fn main() -> ExitCode {
     let result: Result<(), Box<dyn Error>> = match Arguments::parse().command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,0 +1,117 @@
+//! `lobe compare`: how far an image is from another one.
+
+use std::error::Error;
+use std::path::PathBuf;
+
+use clap::Args;
+use lobe::metrics::{Errors, Exposures, Image, Viewing, ZTest, flip, z_test};
+
+use crate::summary::Summary;
+
+const EXAMPLES: &str = "\
+Examples:
+  lobe compare a.exr reference.exr
+  lobe compare a.exr reference.exr --fail-above relmse=1e-3    exit code 1 if it is more
+
+relMSE is the mean of (a - b)² / (b² + 0.01), where b is the reference; PSNR takes 1 for
+the brightest code of PNG files, and the reference's largest value for radiance. FLIP is
+what a viewer sees who flips between both, 0.7 m in front of a 4K screen 0.7 m wide; of
+radiance the worst at several exposures.";
+
+/// Tells how far an image is from a reference: MSE, MAE, relMSE, PSNR, FLIP, and whether noise explains it
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// The image: .exr, .pfm or .png
+    #[arg(value_name = "IMAGE")]
+    image: PathBuf,
+
+    /// What it is compared with
+    #[arg(value_name = "REFERENCE")]
+    reference: PathBuf,
+
+    /// Ends with exit code 1 if a number is larger: mse, rmse, mae, relmse or flip; or psnr is smaller. May be
+    /// repeated
+    #[arg(long, value_name = "METRIC=VALUE", value_parser = limit)]
+    fail_above: Vec<(Metric, f64)>,
+}
+
+/// What can be limited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Metric {
+    Mse,
+    Rmse,
+    Mae,
+    RelMse,
+    Psnr,
+    Flip,
+}
+
+const METRICS: [(&str, Metric); 6] = [
+    ("mse", Metric::Mse),
+    ("rmse", Metric::Rmse),
+    ("mae", Metric::Mae),
+    ("relmse", Metric::RelMse),
+    ("psnr", Metric::Psnr),
+    ("flip", Metric::Flip),
+];
+
+fn limit(text: &str) -> Result<(Metric, f64), String> {
+    let expected = "expected METRIC=VALUE with mse, rmse, mae, relmse, psnr or flip";
+    let (name, value) = text.split_once('=').ok_or(expected)?;
+    let found = METRICS.iter().find(|(known, _)| name.eq_ignore_ascii_case(known));
+    let (_, metric) = *found.ok_or(expected)?;
+    let value: f64 = value.parse().map_err(|_| format!("`{value}` is no number"))?;
+    if value.is_nan() { Err("a limit cannot be NaN".into()) } else { Ok((metric, value)) }
+}
+
+pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    let image = Image::read(&arguments.image)?;
+    let reference = Image::read(&arguments.reference)?;
+    let errors = Errors::between(&image, &reference)?;
+    let (seen, exposures) = flip(&image, &reference, Viewing::default())?;
+    let flip = seen.iter().copied().map(f64::from).sum::<f64>() / seen.len() as f64;
+    let value = |metric: Metric| match metric {
+        Metric::Mse => errors.mse,
+        Metric::Rmse => errors.rmse(),
+        Metric::Mae => errors.mae,
+        Metric::RelMse => errors.rel_mse,
+        Metric::Psnr => errors.psnr(),
+        Metric::Flip => flip,
+    };
+    let mut summary = Summary::default();
+    summary.add("image", arguments.image.display());
+    summary.add("reference", arguments.reference.display());
+    summary.add("size", format!("{}x{} pixels", image.size.x, image.size.y));
+    summary.add("mean", format!("{:+.6e} image less reference", errors.mean));
+    summary.add("mse", format!("{:.6e}", errors.mse));
+    summary.add("rmse", format!("{:.6e}", errors.rmse()));
+    summary.add("mae", format!("{:.6e}", errors.mae));
+    summary.add("relmse", format!("{:.6e} mean of (a - b)^2 / (b^2 + 0.01)", errors.rel_mse));
+    summary.add("psnr", format!("{:.4} dB of a peak of {}", errors.psnr(), errors.peak));
+    let note = match exposures {
+        Some(Exposures { start, stop, count }) => {
+            format!(" worst of {count} exposures from {start:+.2} to {stop:+.2} stops")
+        }
+        None => String::new(),
+    };
+    summary.add("flip", format!("{flip:.6}{note}"));
+    if let Some(z) = z_test(&image, &reference)? {
+        let ZTest { tested, failed, limit, largest: (largest, at), mean_square } = z;
+        summary.add("z-tested", format!("{tested} bands of pixels"));
+        summary.add("z-failed", format!("{failed} beyond {limit:.2} standard errors"));
+        summary.add("z-largest", format!("{largest:.2} at ({}, {})", at.x, at.y));
+        summary.add("z-square", format!("{mean_square:.4} on average, 1 if noise is all"));
+    }
+    summary.print()?;
+    for &(metric, limit) in &arguments.fail_above {
+        let value = value(metric);
+        let fails = if metric == Metric::Psnr { value < limit } else { value > limit };
+        if fails {
+            let (name, _) = METRICS[metric as usize];
+            let side = if metric == Metric::Psnr { "below" } else { "above" };
+            return Err(format!("{name} is {value}, {side} the limit of {limit}").into());
+        }
+    }
+    Ok(())
+}

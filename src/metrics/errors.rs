@@ -1,0 +1,115 @@
+//! [`Errors`]: the usual numbers for how far two images are apart.
+
+use glam::UVec2;
+
+use super::{Encoding, Image};
+
+/// How far an image is from a reference, over all bands of all pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
+    /// Mean of (a - b)².
+    pub mse: f64,
+    /// Mean of |a - b|.
+    pub mae: f64,
+    /// Mean of (a - b)² / (b² + 0.01), where b is the reference.
+    pub rel_mse: f64,
+    /// What [`Errors::psnr`] takes for the brightest: 1 for codes, for radiance the reference's largest value.
+    pub peak: f64,
+    /// Mean of a - b: what noise would leave near zero.
+    pub mean: f64,
+}
+
+/// Why two images cannot be compared.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CompareError {
+    /// The images have different sizes.
+    #[error("the images have {} x {} and {} x {} pixels: they have to be of one size", .0.x, .0.y, .1.x, .1.y)]
+    Size(UVec2, UVec2),
+    /// One has radiance, the other codes.
+    #[error(
+        "one image is linear (EXR, PFM), the other one encoded for a screen (PNG): compare two of one kind"
+    )]
+    Encoding,
+    /// There are values that are not finite.
+    #[error("{count} pixels of the {which} are not finite, at {}: no mean over them would mean anything", positions(.first, *.count))]
+    NotFinite {
+        /// "image" or "reference".
+        which: &'static str,
+        /// How many pixels.
+        count: usize,
+        /// Columns and rows of the first of them.
+        first: Vec<UVec2>,
+    },
+}
+
+fn positions(first: &[UVec2], count: usize) -> String {
+    let more = if count > first.len() { ", ..." } else { "" };
+    let places = first.iter().map(|at| format!("({}, {})", at.x, at.y)).collect::<Vec<_>>();
+    places.join(", ") + more
+}
+
+/// So many pixels that are not finite are named.
+const NAMED: usize = 5;
+
+impl Errors {
+    /// The errors of `image` against `reference`.
+    ///
+    /// # Errors
+    /// When the images are not of one size and kind, or not finite.
+    pub fn between(image: &Image, reference: &Image) -> Result<Self, CompareError> {
+        check(image, reference)?;
+        let bands = |image: &Image| {
+            let bands = |pixel: &crate::Spectrum| pixel.to_array().map(f64::from);
+            image.pixels.iter().flat_map(bands).collect::<Vec<f64>>()
+        };
+        let (a, b) = (bands(image), bands(reference));
+        let mean = |term: fn(f64, f64) -> f64| {
+            a.iter().zip(&b).map(|(&a, &b)| term(a, b)).sum::<f64>() / a.len() as f64
+        };
+        let peak = match reference.encoding {
+            Encoding::Linear => b.iter().copied().fold(0.0, f64::max),
+            Encoding::Srgb => 1.0,
+        };
+        Ok(Self {
+            mse: mean(|a, b| (a - b).powi(2)),
+            mae: mean(|a, b| (a - b).abs()),
+            rel_mse: mean(|a, b| (a - b).powi(2) / (b * b + 0.01)),
+            mean: mean(|a, b| a - b),
+            peak,
+        })
+    }
+
+    /// √MSE.
+    pub fn rmse(&self) -> f64 {
+        self.mse.sqrt()
+    }
+
+    /// 10 log₁₀(peak² / MSE) in dB; infinite for equal images.
+    pub fn psnr(&self) -> f64 {
+        10.0 * (self.peak * self.peak / self.mse).log10()
+    }
+}
+
+/// Whether both can be compared at all.
+pub(super) fn check(image: &Image, reference: &Image) -> Result<(), CompareError> {
+    if image.size != reference.size {
+        return Err(CompareError::Size(image.size, reference.size));
+    }
+    if image.encoding != reference.encoding {
+        return Err(CompareError::Encoding);
+    }
+    for (which, image) in [("image", image), ("reference", reference)] {
+        let is_odd = |place: &usize| !image.pixels[*place].is_finite();
+        let odd: Vec<usize> = (0..image.pixels.len()).filter(is_odd).collect();
+        if !odd.is_empty() {
+            let at = |place: &usize| {
+                let (place, width) = (*place as u32, image.size.x);
+                UVec2::new(place % width, place / width)
+            };
+            let first = odd.iter().take(NAMED).map(at).collect();
+            return Err(CompareError::NotFinite { which, count: odd.len(), first });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,16 @@
+//! How far an image is from another one.
+//!
+//! [`Image::read`] takes EXR, PFM and PNG files; [`Errors::between`] has the usual numbers, [`flip`] what a viewer
+//! sees who flips between both, [`z_test`] whether noise can explain the difference.
+
+mod errors;
+mod flip;
+mod image;
+mod pfm;
+mod plane;
+mod z_test;
+
+pub use errors::{CompareError, Errors};
+pub use flip::{Exposures, Viewing, flip};
+pub use image::{Encoding, Image, ReadImageError};
+pub use z_test::{ZTest, z_test};

@@ -1,0 +1,97 @@
+//! Errors between images: by hand, by other programs' figures, and refused where they would mean nothing.
+
+use lobe::Spectrum;
+use lobe::glam::UVec2;
+use lobe::metrics::{CompareError, Encoding, Errors, Image, Viewing, flip, z_test};
+
+fn image(size: UVec2, encoding: Encoding, pixel: impl Fn(u32, u32) -> [f32; 3]) -> Image {
+    let at = |i: u32| Spectrum::from(pixel(i % size.x, i / size.x));
+    let pixels = (0..size.x * size.y).map(at).collect();
+    Image { size, pixels, variance: None, encoding }
+}
+
+const SIZE: UVec2 = UVec2::new(48, 40);
+
+/// What flip-evaluator 1.7 says of the pattern and its shift by 5: `evaluate(reference, test, "LDR")` and `"HDR"`.
+const LDR: f64 = 0.42159;
+const HDR: f64 = 0.32725;
+
+/// A pattern that any program can make: (i · factor mod 256) / 255 for i = x + 48 y, a third of them shifted.
+fn pattern(shift: u32) -> impl Fn(u32, u32) -> [f32; 3] {
+    move |x, y| {
+        let i = x + 48 * y;
+        let moved = if i.is_multiple_of(3) { i + shift } else { i };
+        [7, 11, 13].map(|factor| (moved * factor % 256) as f32 / 255.0)
+    }
+}
+
+/// Seen to fail with the images exchanged in relMSE.
+#[test]
+fn errors_are_those_by_hand() {
+    let a = image(UVec2::new(2, 1), Encoding::Linear, |x, _| {
+        [[1.0, 2.0, 0.0], [0.5, 0.0, 4.0]][x as usize]
+    });
+    let b = image(UVec2::new(2, 1), Encoding::Linear, |x, _| {
+        [[1.0, 1.0, 0.0], [0.0, 0.0, 2.0]][x as usize]
+    });
+    let errors = Errors::between(&a, &b).unwrap();
+    let close = |x: f64, y: f64| assert!((x - y).abs() < 1e-12 * y.abs(), "{x}, expected {y}");
+    close(errors.mse, (1.0 + 0.25 + 4.0) / 6.0);
+    close(errors.mae, 3.5 / 6.0);
+    close(errors.mean, 3.5 / 6.0);
+    close(errors.rel_mse, (1.0 / 1.01 + 0.25 / 0.01 + 4.0 / 4.01) / 6.0);
+    close(errors.psnr(), 10.0 * (4.0 / errors.mse).log10());
+}
+
+/// Images that cannot be compared say why, and where.
+#[test]
+fn what_cannot_be_compared_is_refused() {
+    let good = image(SIZE, Encoding::Linear, pattern(0));
+    let small = image(UVec2::new(48, 39), Encoding::Linear, pattern(0));
+    let codes = image(SIZE, Encoding::Srgb, pattern(0));
+    let mut odd = good.clone();
+    odd.pixels[48 * 2 + 5] = Spectrum::new(1.0, f32::NAN, 1.0);
+    odd.pixels[48 * 3] = Spectrum::splat(f32::INFINITY);
+    let says = |a: &Image, b: &Image| Errors::between(a, b).unwrap_err().to_string();
+    assert_eq!(
+        says(&good, &small),
+        "the images have 48 x 40 and 48 x 39 pixels: they have to be of one size"
+    );
+    assert_eq!(Errors::between(&good, &codes), Err(CompareError::Encoding));
+    let expected = "2 pixels of the reference are not finite, at (5, 2), (0, 3): no mean over them would mean anything";
+    assert_eq!(says(&good, &odd), expected);
+    assert!(flip(&odd, &good, Viewing::default()).is_err());
+}
+
+/// Equal images differ nowhere; the pattern's values are those of flip-evaluator 1.x, to 1e-3.
+#[test]
+fn flip_is_that_of_its_authors() {
+    for (encoding, expected) in [(Encoding::Srgb, LDR), (Encoding::Linear, HDR)] {
+        let (a, b) = (image(SIZE, encoding, pattern(5)), image(SIZE, encoding, pattern(0)));
+        let mean = |a: &Image, b: &Image| {
+            let (seen, _) = flip(a, b, Viewing::default()).unwrap();
+            seen.iter().map(|&x| f64::from(x)).sum::<f64>() / seen.len() as f64
+        };
+        assert_eq!(mean(&b, &b), 0.0);
+        let found = mean(&a, &b);
+        assert!((found - expected).abs() < 1e-3, "{encoding:?}: {found}, expected {expected}");
+    }
+}
+
+/// Differences of one standard error are noise, one of twenty is not, and pixels without variance do not count.
+#[test]
+fn noise_is_told_from_difference() {
+    let mut a = image(SIZE, Encoding::Linear, pattern(0));
+    let b = a.clone();
+    assert_eq!(z_test(&a, &b), Ok(None));
+    a.variance = Some(vec![Spectrum::splat(0.01); a.pixels.len()]);
+    a.variance.as_mut().unwrap()[0] = Spectrum::splat(f32::INFINITY);
+    for (i, pixel) in a.pixels.iter_mut().enumerate() {
+        *pixel += Spectrum::splat(if i % 2 == 0 { 0.1 } else { -0.1 });
+    }
+    a.pixels[48 + 7] = b.pixels[48 + 7] + Spectrum::new(0.0, 2.0, 0.0);
+    let found = z_test(&a, &b).unwrap().unwrap();
+    assert_eq!((found.tested, found.failed), (3 * (48 * 40 - 1), 1));
+    assert_eq!(found.largest.1, UVec2::new(7, 1));
+    assert!((found.largest.0 - 20.0).abs() < 1e-3 && (4.0..5.5).contains(&found.limit));
+}
