@@ -2,7 +2,7 @@
 
 use lobe::Spectrum;
 use lobe::glam::UVec2;
-use lobe::metrics::{CompareError, Encoding, Errors, Image, Viewing, flip, z_test};
+use lobe::metrics::{CompareError, Encoding, ErrorMap, Errors, Image, Viewing, flip, z_test};
 
 fn image(size: UVec2, encoding: Encoding, pixel: impl Fn(u32, u32) -> [f32; 3]) -> Image {
     let at = |i: u32| Spectrum::from(pixel(i % size.x, i / size.x));
@@ -94,4 +94,30 @@ fn noise_is_told_from_difference() {
     assert_eq!((found.tested, found.failed), (3 * (48 * 40 - 1), 1));
     assert_eq!(found.largest.1, UVec2::new(7, 1));
     assert!((found.largest.0 - 20.0).abs() < 1e-3 && (4.0..5.5).contains(&found.limit));
+}
+
+/// Dark is zero, ends are told from the middle, and one pixel in a thousand does not decide on the scale.
+#[test]
+fn maps_show_where_images_differ() {
+    let size = UVec2::new(100, 100);
+    let b = image(size, Encoding::Linear, |_, _| [0.5; 3]);
+    let mut a = b.clone();
+    a.pixels[..5000].fill(Spectrum::splat(0.7));
+    a.pixels[5000..6000].fill(Spectrum::splat(0.3));
+    a.pixels[9999] = Spectrum::splat(1000.0);
+    let map = ErrorMap::signed(&a, &b).unwrap();
+    assert!((map.limit - 0.2).abs() < 1e-6, "{}", map.limit);
+    let codes = map.codes();
+    let pixel = |place: usize| [codes[3 * place], codes[3 * place + 1], codes[3 * place + 2]];
+    let [red, blue, same] = [pixel(0), pixel(5500), pixel(7000)];
+    assert!(red[0] > 2 * red[2] && blue[2] > 2 * blue[0] && same.iter().all(|&c| c > 230));
+    assert_eq!(pixel(9999), red, "beyond the scale's end");
+    let absolute = ErrorMap::absolute(&a, &b).unwrap();
+    assert!(absolute.values.iter().all(|&value| value >= 0.0));
+    assert!(absolute.codes()[..3].iter().all(|&c| c > absolute.codes()[3 * 7000]));
+    // Equal images have a scale too, and a file is as wide as its bar needs.
+    let small = image(UVec2::ONE, Encoding::Linear, |_, _| [0.5; 3]);
+    let map = ErrorMap::signed(&small, &small).unwrap();
+    assert_eq!((map.limit, map.mean()), (1.0, 0.0));
+    assert_eq!(map.png()[..4], *b"\x89PNG");
 }

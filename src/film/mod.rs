@@ -14,7 +14,7 @@ pub use display::Display;
 pub use exr::write_exr;
 pub use filter::{Filter, FilterError};
 pub use filter_sampler::FilterSampler;
-pub use output::{OutputError, check_writable};
+pub use output::{OutputError, check_writable, write_file};
 pub use picture::{Layers, Metadata, Picture, Window};
 pub use png::write_png;
 pub use spread::Variance;

@@ -1,7 +1,7 @@
 //! Writing files so that a name never stands for half a picture, and [`OutputError`].
 
 use std::fs::{self, File, Permissions};
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -88,6 +88,15 @@ fn advice(error: &io::Error) -> &'static str {
 /// ```
 pub fn check_writable(path: impl AsRef<Path>) -> Result<(), OutputError> {
     Temporary::beside(path.as_ref()).map(drop)
+}
+
+/// Gives `path` new contents, as [`write_png`](super::write_png) does: a file of the same name is replaced only when
+/// the new one is complete and on the disk.
+///
+/// # Errors
+/// When the path cannot be written.
+pub fn write_file(path: impl AsRef<Path>, contents: &[u8]) -> Result<(), OutputError> {
+    replace(path.as_ref(), |file| file.write_all(contents))
 }
 
 /// Gives `path` new contents, all or nothing: they go to a temporary file in the same folder, which

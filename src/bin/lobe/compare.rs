@@ -4,7 +4,8 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use clap::Args;
-use lobe::metrics::{Errors, Exposures, Image, Viewing, ZTest, flip, z_test};
+use lobe::film::write_file;
+use lobe::metrics::{ErrorMap, Errors, Exposures, Image, Viewing, ZTest, z_test};
 
 use crate::summary::Summary;
 
@@ -12,11 +13,13 @@ const EXAMPLES: &str = "\
 Examples:
   lobe compare a.exr reference.exr
   lobe compare a.exr reference.exr --fail-above relmse=1e-3    exit code 1 if it is more
+  lobe compare a.exr reference.exr --maps error        error-absolute.png, error-signed.png, error-flip.png
 
 relMSE is the mean of (a - b)² / (b² + 0.01), where b is the reference; PSNR takes 1 for
 the brightest code of PNG files, and the reference's largest value for radiance. FLIP is
 what a viewer sees who flips between both, 0.7 m in front of a 4K screen 0.7 m wide; of
-radiance the worst at several exposures.";
+radiance the worst at several exposures. The Z-test takes the variance layers of both at
+their word: of a few samples, which may agree by chance, they say too little.";
 
 /// Tells how far an image is from a reference: MSE, MAE, relMSE, PSNR, FLIP, and whether noise explains it
 #[derive(Args)]
@@ -34,6 +37,11 @@ pub struct Arguments {
     /// repeated
     #[arg(long, value_name = "METRIC=VALUE", value_parser = limit)]
     fail_above: Vec<(Metric, f64)>,
+
+    /// Writes three pictures of where they differ, each with a bar that tells what its colours mean:
+    /// PREFIX-absolute.png and PREFIX-signed.png, the mean of the bands, and PREFIX-flip.png
+    #[arg(long, value_name = "PREFIX")]
+    maps: Option<PathBuf>,
 }
 
 /// What can be limited.
@@ -69,8 +77,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let image = Image::read(&arguments.image)?;
     let reference = Image::read(&arguments.reference)?;
     let errors = Errors::between(&image, &reference)?;
-    let (seen, exposures) = flip(&image, &reference, Viewing::default())?;
-    let flip = seen.iter().copied().map(f64::from).sum::<f64>() / seen.len() as f64;
+    let (seen, exposures) = ErrorMap::flip(&image, &reference, Viewing::default())?;
+    let flip = seen.mean();
     let value = |metric: Metric| match metric {
         Metric::Mse => errors.mse,
         Metric::Rmse => errors.rmse(),
@@ -102,6 +110,16 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         summary.add("z-failed", format!("{failed} beyond {limit:.2} standard errors"));
         summary.add("z-largest", format!("{largest:.2} at ({}, {})", at.x, at.y));
         summary.add("z-square", format!("{mean_square:.4} on average, 1 if noise is all"));
+    }
+    if let Some(prefix) = &arguments.maps {
+        let absolute = ErrorMap::absolute(&image, &reference)?;
+        let signed = ErrorMap::signed(&image, &reference)?;
+        for (name, map) in [("absolute", absolute), ("signed", signed), ("flip", seen)] {
+            let mut path = prefix.clone().into_os_string();
+            path.push(format!("-{name}.png"));
+            write_file(&path, &map.png())?;
+            summary.add("wrote", PathBuf::from(path).display());
+        }
     }
     summary.print()?;
     for &(metric, limit) in &arguments.fail_above {
