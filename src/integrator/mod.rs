@@ -34,8 +34,8 @@ pub trait Integrator: Send + Sync {
 }
 
 /// The integrator that the settings ask for.
-pub(crate) fn from_settings(scene: &Scene) -> Box<dyn Integrator> {
-    match *scene.integrator() {
+pub(crate) fn from_settings(scene: &Scene, settings: &IntegratorSettings) -> Box<dyn Integrator> {
+    match *settings {
         IntegratorSettings::Chapter { highlight } => Box::new(ChapterIntegrator { highlight }),
         IntegratorSettings::Direct { strategy } => Box::new(DirectIntegrator::new(scene, strategy)),
         IntegratorSettings::Path { max_depth, roulette, strategy } => {

@@ -2,7 +2,10 @@
 //!
 //! [`Image::read`] takes EXR, PFM and PNG files; [`Errors::between`] has the usual numbers, [`flip`] what a viewer
 //! sees who flips between both, [`z_test`] whether noise can explain the difference; [`ErrorMap`] shows where.
+//! [`convergence`] follows errors over samples and time.
 
+pub mod chart;
+pub mod convergence;
 mod errors;
 mod flip;
 mod image;

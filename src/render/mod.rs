@@ -16,7 +16,7 @@ use crate::integrator::{self, Counters, Integrator};
 use crate::sampling::{
     BlueNoiseSampler, IndependentSampler, Sampler, SobolSampler, StratifiedSampler,
 };
-use crate::scene::{SamplerKind, SamplerSettings, Scene};
+use crate::scene::{IntegratorSettings, SamplerKind, SamplerSettings, Scene};
 use pass::Pass;
 use passes::Passes;
 
@@ -114,12 +114,27 @@ pub enum RenderError {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn render(scene: &Scene, options: &RenderOptions) -> Result<Rendered, RenderError> {
-    let sampler = sampler_from_settings(scene, &settings(scene, options));
-    let integrator = integrator::from_settings(scene);
-    render_with(scene, &*integrator, &*sampler, options)
+    render_as(scene, scene.sampler(), scene.integrator(), options)
 }
 
-/// Renders a scene by an integrator and a sampler of the caller's.
+/// Renders a scene by other settings than its own.
+///
+/// # Errors
+/// As for [`render`].
+pub fn render_as(
+    scene: &Scene,
+    sampler: &SamplerSettings,
+    integrator: &IntegratorSettings,
+    options: &RenderOptions,
+) -> Result<Rendered, RenderError> {
+    let settings = with_options(sampler, options);
+    let sampler = sampler_from_settings(scene, &settings);
+    let integrator = integrator::from_settings(scene, integrator);
+    render_sets(scene, &*integrator, &*sampler, &settings, options)
+}
+
+/// Renders a scene by an integrator and a sampler of the caller's. The scene's own settings of the sampler say how many
+/// samples there are, and in how many sets.
 ///
 /// # Errors
 /// As for [`render`].
@@ -129,10 +144,19 @@ pub fn render_with(
     sampler: &dyn Sampler,
     options: &RenderOptions,
 ) -> Result<Rendered, RenderError> {
+    render_sets(scene, integrator, sampler, &with_options(scene.sampler(), options), options)
+}
+
+fn render_sets(
+    scene: &Scene,
+    integrator: &dyn Integrator,
+    sampler: &dyn Sampler,
+    settings: &SamplerSettings,
+    options: &RenderOptions,
+) -> Result<Rendered, RenderError> {
     let start = Instant::now();
     let film = scene.film();
-    let SamplerSettings { spp, .. } = settings(scene, options);
-    let sets = settings(scene, options).sets();
+    let (spp, sets) = (settings.spp, settings.sets());
     let limit = if options.spp.is_none() && options.time.is_some() { u32::MAX } else { spp };
     let mut passes = Passes::new(limit / sets, options.time);
     let variance = match options.layers {
@@ -158,10 +182,9 @@ pub fn render_with(
     })
 }
 
-/// The scene's settings, with as many samples as the options say.
-fn settings(scene: &Scene, options: &RenderOptions) -> SamplerSettings {
-    let settings = *scene.sampler();
-    SamplerSettings { spp: options.spp.unwrap_or(settings.spp).max(1), ..settings }
+/// The settings, with as many samples as the options say.
+fn with_options(settings: &SamplerSettings, options: &RenderOptions) -> SamplerSettings {
+    SamplerSettings { spp: options.spp.unwrap_or(settings.spp).max(1), ..*settings }
 }
 
 /// The sampler that the settings ask for.

@@ -1,0 +1,72 @@
+//! [`Bias`]: what no number of samples takes away.
+
+use glam::DVec3;
+
+use super::reference::weights;
+use super::{Pool, Reference};
+
+/// How far the mean of a method's pictures is from the reference, beyond what noise explains.
+///
+/// In each pixel (mean - reference)² less both variances is the square of the bias, without bias of its own; the
+/// average over pixels is compared with its standard error, which follows from how it scatters from tile to tile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bias {
+    /// The bias as a root of relMSE: √(MSE - variance), 0 where the difference is negative.
+    pub error: f64,
+    /// The same squared, which may be negative, and its standard error.
+    pub square: (f64, f64),
+    /// Mean of method less reference in radiance, and its standard error.
+    pub mean: (f64, f64),
+}
+
+impl Bias {
+    /// So many standard errors are no chance.
+    pub const LIMIT: f64 = 5.0;
+
+    /// The bias of the method whose pictures the pool has: at least two of them.
+    pub fn new(pool: &Pool, reference: &Reference) -> Self {
+        let image = reference.image();
+        let known = image.variance.iter().flatten();
+        let wide = |pixel: &crate::Spectrum| DVec3::from(pixel.to_array().map(f64::from));
+        let truth = image.pixels.iter().map(wide).zip(known.map(wide));
+        let (columns, rows) = (image.size.x.div_ceil(TILE), image.size.y.div_ceil(TILE));
+        let mut tiles = vec![(0.0, 0.0); (columns * rows) as usize];
+        let (mut difference, mut spread) = (0.0, 0.0);
+        for (place, ((mean, variance), (truth, own))) in (0_u32..).zip(pool.moments().zip(truth)) {
+            let apart = mean - truth;
+            let square = (apart * apart - variance - own) / weights(truth);
+            let (x, y) = (place % image.size.x, place / image.size.x);
+            let tile = &mut tiles[(y / TILE * columns + x / TILE) as usize];
+            tile.0 += square.element_sum() / 3.0;
+            tile.1 += 1.0;
+            difference += apart.element_sum();
+            spread += (variance + own).element_sum();
+        }
+        let bands = 3.0 * image.pixels.len() as f64;
+        let square = scatter(&tiles);
+        let mean = (difference / bands, spread.sqrt() / bands);
+        Self { error: square.0.max(0.0).sqrt(), square, mean }
+    }
+
+    /// How large it is: the root of relMSE, or where noise in the pixels hides that, the difference of the means.
+    pub fn size(&self) -> f64 {
+        if self.error > 0.0 { self.error } else { self.mean.0.abs() }
+    }
+
+    /// Whether noise does not explain it.
+    pub fn is_certain(&self) -> bool {
+        let beyond = |(value, error): (f64, f64)| value > Self::LIMIT * error;
+        beyond(self.square) || beyond((self.mean.0.abs(), self.mean.1))
+    }
+}
+
+/// Columns and rows of a tile. Samplers may make neighbouring pixels depend on each other.
+const TILE: u32 = 8;
+
+/// The mean of values by sums and weights of tiles, and its standard error.
+fn scatter(tiles: &[(f64, f64)]) -> (f64, f64) {
+    let weight: f64 = tiles.iter().map(|(_, weight)| weight).sum();
+    let mean = tiles.iter().map(|(sum, _)| sum).sum::<f64>() / weight;
+    let square = |&(sum, weight): &(f64, f64)| (sum - weight * mean).powi(2);
+    (mean, tiles.iter().map(square).sum::<f64>().sqrt() / weight)
+}

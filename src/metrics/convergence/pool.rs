@@ -1,0 +1,75 @@
+//! [`Pool`]: pictures of one scene that differ by chance alone, and their mean.
+
+use glam::DVec3;
+
+use super::super::Image;
+use crate::Spectrum;
+
+/// The mean of independent pictures, and how they scatter around it.
+///
+/// Welford 1962, "Note on a method for calculating corrected sums of squares and products", for each band of
+/// each pixel.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pool {
+    count: u32,
+    mean: Vec<DVec3>,
+    /// Sums of squared distances from the mean.
+    squares: Vec<DVec3>,
+}
+
+impl Pool {
+    /// How many pictures there are.
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Adds a picture's pixels. All have to be of one size.
+    ///
+    /// # Panics
+    /// If there is another number of them than of those before.
+    pub fn add(&mut self, pixels: &[Spectrum]) {
+        if self.count == 0 {
+            self.mean = vec![DVec3::ZERO; pixels.len()];
+            self.squares = self.mean.clone();
+        }
+        assert_eq!(pixels.len(), self.mean.len(), "pictures of one size");
+        self.count += 1;
+        let share = 1.0 / f64::from(self.count);
+        for ((mean, squares), pixel) in self.mean.iter_mut().zip(&mut self.squares).zip(pixels) {
+            let value = DVec3::from(pixel.to_array().map(f64::from));
+            let before = value - *mean;
+            *mean += share * before;
+            *squares += before * (value - *mean);
+        }
+    }
+
+    /// The mean, and the variance of the mean once there are two pictures.
+    pub fn pixels(&self) -> (Vec<Spectrum>, Option<Vec<Spectrum>>) {
+        let narrow = |v: &DVec3| Spectrum::from(v.as_vec3().to_array());
+        let mean = self.mean.iter().map(narrow).collect();
+        let count = f64::from(self.count);
+        let variance = |squares: &DVec3| narrow(&(*squares / (count * (count - 1.0))));
+        (mean, (self.count > 1).then(|| self.squares.iter().map(variance).collect()))
+    }
+
+    /// The pool of `count` pictures whose mean and variance of the mean an image has, up to f32: what [`Pool::pixels`] gave.
+    /// An image without variance is one picture.
+    pub fn from_image(image: &Image, count: u32) -> Self {
+        let wide = |pixel: &Spectrum| DVec3::from(pixel.to_array().map(f64::from));
+        let mean: Vec<DVec3> = image.pixels.iter().map(wide).collect();
+        match &image.variance {
+            Some(variance) if count > 1 => {
+                let of_mean = f64::from(count) * f64::from(count - 1);
+                let squares = variance.iter().map(|v| of_mean * wide(v)).collect();
+                Self { count, mean, squares }
+            }
+            _ => Self { count: 1, squares: vec![DVec3::ZERO; mean.len()], mean },
+        }
+    }
+
+    /// Mean and variance of the mean, by pixel; none of the latter for fewer than two pictures.
+    pub(super) fn moments(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
+        let of_mean = f64::from(self.count) * (f64::from(self.count) - 1.0);
+        self.mean.iter().zip(&self.squares).map(move |(&mean, &squares)| (mean, squares / of_mean))
+    }
+}

@@ -1,0 +1,293 @@
+//! Curves of error: what is right falls, what is wrong flattens and is called biased.
+//!
+//! The truth is the crate's own picture of a pyramid under the sky, by another estimator and other seeds than the methods
+//! have. Two methods are wrong on purpose: one cuts bright samples off, one divides by another density than it drew
+//! from.
+
+use lobe::bxdf::{BxdfFlags, TransportMode};
+use lobe::glam::{UVec2, Vec3};
+use lobe::integrator::{DirectIntegrator, Integrator, Wave, dimension};
+use lobe::light::SkyLight;
+use lobe::metrics::convergence::{
+    Bias, Curve, Distrust, Method, Other, Pool, Reference, Run, Study, front,
+};
+use lobe::render::{render_as, render_with};
+use lobe::sampling::{IndependentSampler, Sampler};
+use lobe::scene::{IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings};
+use lobe::{CameraSettings, MatteMaterial, RenderOptions, Scene, Spectrum, TriangleMesh};
+
+const SIZE: UVec2 = UVec2::new(40, 36);
+const SEEDS: u64 = 8;
+const BUDGETS: [u32; 6] = [1, 2, 4, 8, 16, 32];
+
+fn scene() -> Scene {
+    let floor =
+        TriangleMesh::parallelogram(Vec3::new(-4.0, 0.0, -4.0), Vec3::Z * 8.0, Vec3::X * 8.0);
+    let pyramid = TriangleMesh {
+        positions: vec![
+            Vec3::new(-1.0, 0.0, -1.0),
+            Vec3::new(1.0, 0.0, -1.0),
+            Vec3::new(1.0, 0.0, 1.0),
+            Vec3::new(-1.0, 0.0, 1.0),
+            Vec3::new(0.0, 1.6, 0.0),
+        ],
+        indices: vec![[0, 4, 1], [1, 4, 2], [2, 4, 3], [3, 4, 0]],
+        ..TriangleMesh::default()
+    };
+    Scene::builder()
+        .camera(CameraSettings {
+            eye: Vec3::new(0.3, 2.5, -2.6),
+            look_at: Vec3::ZERO,
+            ..Default::default()
+        })
+        .resolution(SIZE.x, SIZE.y)
+        .integrator(IntegratorSettings::direct())
+        .material("clay", MatteMaterial::new([0.6, 0.3, 0.2]))
+        .shape("floor", floor, "clay")
+        .shape("pyramid", pyramid, "clay")
+        .light(SkyLight::new(Spectrum::splat(1.0)))
+        .build()
+        .unwrap()
+}
+
+/// Draws the parts of a reference, from seeds that no method has.
+fn reference(scene: &Scene) -> Reference {
+    let mut pool = Pool::default();
+    for part in 0..6 {
+        let sampler = SamplerSettings {
+            kind: SamplerKind::Sobol,
+            spp: 256,
+            seed: 1000 + part,
+            replicates: 1,
+        };
+        let integrator = IntegratorSettings::Direct { strategy: LightStrategy::Light };
+        let rendered = render_as(scene, &sampler, &integrator, &RenderOptions::default()).unwrap();
+        pool.add(&rendered.picture.color);
+    }
+    Reference::new(&pool, SIZE)
+}
+
+/// The right method, with an integrator of the test's in its place if there is one.
+fn method<'a>(scene: &'a Scene, name: &str, wrong: Option<&'a dyn Integrator>) -> Method<'a> {
+    let right = DirectIntegrator::new(scene, LightStrategy::Auto);
+    Method::new(name, scene.build_seconds(), move |spp, seed| {
+        let options = RenderOptions { spp: Some(spp), ..RenderOptions::default() };
+        render_with(scene, wrong.unwrap_or(&right), &IndependentSampler::new(seed), &options)
+    })
+}
+
+/// Cuts off what is brighter than it likes, against rare bright samples.
+struct Clamped(DirectIntegrator);
+
+impl Integrator for Clamped {
+    fn shade(&self, scene: &Scene, sampler: &dyn Sampler, wave: &mut Wave) {
+        self.0.shade(scene, sampler, wave);
+        for radiance in &mut wave.radiance {
+            *radiance = Spectrum::from(radiance.to_array().map(|band| band.min(0.5)));
+        }
+    }
+
+    fn shadow_rays(&self) -> usize {
+        self.0.shadow_rays()
+    }
+}
+
+/// Draws directions evenly over the sphere, and divides by the density of the hemisphere's cosine.
+struct WrongPdf;
+
+impl Integrator for WrongPdf {
+    fn shade(&self, scene: &Scene, sampler: &dyn Sampler, wave: &mut Wave) {
+        let Wave { ids, rays, hits, radiance, shadow, arena, .. } = wave;
+        for (sample, (ray, hit)) in rays.iter().zip(&*hits).enumerate() {
+            if !hit.is_hit() {
+                radiance[sample] = Spectrum::splat(1.0);
+                continue;
+            }
+            let mut si = scene.interaction(ray, hit);
+            let bsdf = scene.material(hit).compute_scattering(
+                &mut si,
+                arena,
+                TransportMode::Radiance,
+                true,
+            );
+            let u = sampler.get_2d(ids[sample], dimension::FIRST_LIGHT);
+            let (z, phi) = (1.0 - 2.0 * u.x, std::f32::consts::TAU * u.y);
+            let r = (1.0 - z * z).max(0.0).sqrt();
+            let wi = Vec3::new(r * phi.cos(), r * phi.sin(), z);
+            let (f, pdf) = bsdf.f_and_pdf(si.wo(), wi, BxdfFlags::all());
+            if pdf > 0.0 {
+                let cosine = si.shading_n().dot(wi).abs();
+                shadow.push(sample, si.spawn_ray(wi), f * (cosine / pdf));
+            }
+        }
+        shadow.trace(scene, radiance);
+        arena.reset();
+    }
+}
+
+/// All runs of a method, and its bias at the largest budget.
+fn measure(method: &Method, reference: &Reference) -> (Vec<Run>, Bias) {
+    let (mut runs, mut pool) = (Vec::new(), Pool::default());
+    for spp in BUDGETS {
+        for seed in 0..SEEDS {
+            let (run, image) = method.run(spp, seed, reference).unwrap();
+            runs.push(run);
+            if spp == BUDGETS[BUDGETS.len() - 1] {
+                pool.add(&image.pixels);
+            }
+        }
+    }
+    (runs, Bias::new(&pool, reference))
+}
+
+/// Seen to fail with the right density in place of the wrong one.
+#[test]
+fn wrong_methods_flatten_and_are_called_biased() {
+    let scene = scene();
+    let reference = reference(&scene);
+    assert_eq!(reference.distrust(), None);
+    let clamped = Clamped(DirectIntegrator::new(&scene, LightStrategy::Auto));
+    let methods = [
+        method(&scene, "right", None),
+        method(&scene, "clamped", Some(&clamped)),
+        method(&scene, "wrong pdf", Some(&WrongPdf)),
+    ];
+    let (mut curves, mut biases) = (Vec::new(), Vec::new());
+    for method in &methods {
+        let (runs, bias) = measure(method, &reference);
+        curves.push(Curve::new(method.name(), &runs, &reference));
+        biases.push(Some(bias));
+    }
+    let slopes: Vec<f64> = curves.iter().map(|curve| curve.slope_by_samples().unwrap()).collect();
+    // Independent samples: -1/2. With as many seeds and pixels as here the slope scatters by 0.005.
+    assert!((slopes[0] + 0.5).abs() < 0.03, "{slopes:?}");
+    assert!(!biases[0].unwrap().is_certain(), "{:?}", biases[0]);
+    for (curve, bias) in curves.iter().zip(&biases).skip(1) {
+        let (name, bias) = (&curve.method, bias.unwrap());
+        let [before, last] = curve.points.last_chunk().unwrap();
+        let (before, last) = (before.error.unwrap()[1], last.error.unwrap()[1]);
+        assert!(bias.is_certain(), "{name}: {bias:?}");
+        // What is left of the error is bias, and twice the samples take little of it away.
+        assert!(bias.error < last && last < 1.4 * bias.error, "{name}: {last}, {bias:?}");
+        assert!(last > 0.8 * before, "{name}: {before}, {last}");
+    }
+    assert!(biases[1].unwrap().mean.0 < 0.0, "clamped pictures are too dark");
+
+    let study = Study { scene: "pyramid".into(), reference, curves, biases, others: Vec::new() };
+    let svg = study.error_by_samples().svg();
+    assert!(svg.contains("right, slope") && svg.contains("clamped, biased by"), "{svg}");
+    assert!(svg.contains("wrong pdf, biased by"), "{svg}");
+}
+
+/// Times and errors by hand: medians, quartiles, what the reference takes off, and Pareto's front.
+#[test]
+fn curves_are_those_by_hand() {
+    let mut pool = Pool::default();
+    // Two parts, 0.01 apart in each band: the variance of their mean is 0.005², and 1 + 0.01 divides it.
+    for value in [0.995, 1.005] {
+        pool.add(&[Spectrum::splat(value); 64]);
+    }
+    let reference = Reference::new(&pool, UVec2::splat(8));
+    let floor = reference.floor();
+    assert!((floor - 0.005 / 1.01_f64.sqrt()).abs() < 1e-6, "{floor}");
+
+    let run = |method: &str, spp, seed, seconds, error: f64| Run {
+        method: method.into(),
+        spp,
+        seed,
+        set_up: 0.25,
+        seconds,
+        rel_mse: error * error + floor * floor,
+        mse: 0.0,
+        mean: 0.0,
+    };
+    let runs = [
+        run("a", 1, 0, 1.0, 0.1),
+        run("a", 1, 1, 3.0, 0.3),
+        run("a", 1, 2, 2.0, 0.2),
+        run("a", 2, 0, 4.0, 0.05),
+        run("a", 4, 0, 8.0, 0.9 * floor),
+        run("b", 1, 0, 2.5, 0.15),
+        run("b", 2, 0, 5.0, 0.06),
+    ];
+    for run in &runs {
+        assert_eq!(run.to_string().parse(), Ok(run.clone()));
+    }
+    assert!("\"a\",1,2".parse::<Run>().is_err());
+    let curves = ["a", "b"].map(|method| Curve::new(method, &runs, &reference));
+    let first = &curves[0].points[0];
+    assert_eq!((first.runs, first.seconds, first.time()), (3, 2.0, 2.25));
+    let [q1, median, q3] = first.error.unwrap();
+    let close = |x: f64, y: f64| assert!((x - y).abs() < 1e-9, "{x}, expected {y}");
+    close(median, 0.2);
+    // Of squares, half way: (0.1² + 0.2²) / 2 and (0.2² + 0.3²) / 2.
+    close(q1, 0.025_f64.sqrt());
+    close(q3, 0.065_f64.sqrt());
+    assert_eq!(curves[0].points[2].error, None, "below the reference's own error");
+    // At 2.25 s, 2.75 s, 4.25 s; the point at 5.25 s is beaten.
+    let front: Vec<_> = front(&curves).iter().map(|(number, point)| (*number, point.spp)).collect();
+    assert_eq!(front, [(0, 1), (1, 1), (0, 2)]);
+    close(curves[0].error_at((2.25_f64 * 4.25).sqrt()).unwrap(), 0.1);
+    assert_eq!(curves[0].error_at(2.0), None);
+
+    let others = vec![Other { label: "other, \"one\"".into(), seconds: 3.0, rel_mse: 0.01 }];
+    let study = Study {
+        scene: "s".into(),
+        reference,
+        curves: curves.into(),
+        biases: vec![None; 2],
+        others,
+    };
+    let csv = study.csv();
+    assert_eq!(csv.lines().count(), 1 + 5 + 1);
+    assert!(
+        csv.lines()
+            .all(|line| line.replace("\"other, \"\"one\"\"\"", "o").split(',').count() == 11),
+        "{csv}"
+    );
+    assert!(study.error_by_time().svg().contains("other, &quot;one&quot;"));
+}
+
+/// A picture whose error lies in few pixels says so, and where.
+#[test]
+fn rare_samples_are_not_trusted() {
+    let mut pool = Pool::default();
+    for part in 0..4 {
+        let mut pixels = vec![Spectrum::splat(0.5 + 0.001 * part as f32); 2000];
+        pixels[1234] = Spectrum::splat(if part == 2 { 100.0 } else { 0.5 });
+        pool.add(&pixels);
+    }
+    let reference = Reference::new(&pool, UVec2::new(50, 40));
+    let Some(Distrust::Rare { share, worst }) = reference.distrust() else {
+        panic!("{:?}", reference.distrust());
+    };
+    assert!(*share > 0.9 && *worst == UVec2::new(34, 24), "{share} {worst}");
+}
+
+/// A pool that went through a file goes on as if it had not, up to f32.
+#[test]
+fn pools_go_on() {
+    let picture = |n: u32| -> Vec<Spectrum> {
+        (0..50).map(|i| Spectrum::splat(((i * 7 + n * 13) % 17) as f32 * 0.1)).collect()
+    };
+    let (mut all, mut first) = (Pool::default(), Pool::default());
+    (0..5).for_each(|n| all.add(&picture(n)));
+    (0..3).for_each(|n| first.add(&picture(n)));
+    let (pixels, variance) = first.pixels();
+    let image = lobe::metrics::Image {
+        size: UVec2::new(10, 5),
+        pixels,
+        variance,
+        encoding: lobe::metrics::Encoding::Linear,
+    };
+    let mut again = Pool::from_image(&image, 3);
+    (3..5).for_each(|n| again.add(&picture(n)));
+    assert_eq!(again.count(), 5);
+    let ((a, va), (b, vb)) = (all.pixels(), again.pixels());
+    for (a, b) in a.iter().zip(&b).chain(va.unwrap().iter().zip(&vb.unwrap())) {
+        assert!(
+            (a.max_component() - b.max_component()).abs() <= 1e-6 * a.max_component().abs() + 1e-9,
+            "{a:?} {b:?}"
+        );
+    }
+}
