@@ -19,7 +19,8 @@ pub const MAX_LOBES: usize = 8;
 /// - world directions go in, shading coordinates reach the lobes;
 /// - the shading normal makes the coordinates, but the **geometric** normal decides whether light is
 ///   reflected or transmitted, so that none leaks through a surface whose shading normal leans over
-///   (PBRT 3rd edition, section 9.1);
+///   (PBRT 3rd edition, section 9.1); directions for which the two normals disagree are black, because
+///   no lobe draws them, and with light sampling alone they would count;
 /// - no lobe is asked about a `wo` that lies exactly along the surface;
 /// - nothing leaves it that is not finite and non-negative. What a lobe gave instead is counted in
 ///   [`rejected`](Bsdf::rejected).
@@ -98,15 +99,16 @@ impl<'a> Bsdf<'a> {
     #[inline]
     pub fn f(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> Spectrum {
         if let Some(lobe) = self.only_lambertian(flags) {
+            let [wo_z, wi_z] = [wo, wi].map(|w| w.dot(self.frame.n));
             let reflects =
-                wo.dot(self.frame.n) != 0.0 && self.side(wo, wi) == BxdfFlags::REFLECTION;
+                wo_z != 0.0 && self.side([wo, wi], [wo_z, wi_z]) == BxdfFlags::REFLECTION;
             return if reflects { self.guarded(lobe.f(wo, wi)) } else { Spectrum::BLACK };
         }
         let local_wo = self.frame.to_local(wo);
         if local_wo.z == 0.0 {
             return Spectrum::BLACK;
         }
-        let f = self.sum(local_wo, self.frame.to_local(wi), self.side(wo, wi), flags);
+        let f = self.sum([wo, wi], [local_wo, self.frame.to_local(wi)], flags);
         self.guarded(f)
     }
 
@@ -121,8 +123,9 @@ impl<'a> Bsdf<'a> {
                 return None;
             }
             let mut sample = lobe.sample_f(local_wo, u)?;
+            let wi_z = sample.wi.z;
             sample.wi = self.frame.to_world(sample.wi);
-            if self.side(wo, sample.wi) == BxdfFlags::TRANSMISSION {
+            if self.side([wo, sample.wi], [local_wo.z, wi_z]) != BxdfFlags::REFLECTION {
                 sample.f = Spectrum::BLACK;
             }
             sample.f = self.guarded(sample.f);
@@ -155,10 +158,9 @@ impl<'a> Bsdf<'a> {
             return None;
         }
         if !specular {
-            let side = self.side(wo, sample.wi);
             if matching > 1 {
-                sample.f = self.sum(local_wo, local_wi, side, flags);
-            } else if !kind.intersects(side) {
+                sample.f = self.sum([wo, sample.wi], [local_wo, local_wi], flags);
+            } else if !kind.intersects(self.side([wo, sample.wi], [local_wo.z, local_wi.z])) {
                 sample.f = Spectrum::BLACK;
             }
         }
@@ -188,7 +190,7 @@ impl<'a> Bsdf<'a> {
         if local_wo.z == 0.0 {
             return (Spectrum::BLACK, 0.0);
         }
-        let f = self.sum(local_wo, local_wi, self.side(wo, wi), flags);
+        let f = self.sum([wo, wi], [local_wo, local_wi], flags);
         (self.guarded(f), self.guarded_pdf(self.mean_pdf(local_wo, local_wi, flags)))
     }
 
@@ -216,18 +218,23 @@ impl<'a> Bsdf<'a> {
         }
     }
 
-    /// Reflection or transmission, by the geometric normal.
+    /// Reflection or transmission of a pair of world directions, whose heights over the plane of the shading normal are
+    /// `z`; neither if the two normals disagree.
     #[inline]
-    fn side(&self, wo: Vec3, wi: Vec3) -> BxdfFlags {
-        if (wi.dot(self.ng) > 0.0) == (wo.dot(self.ng) > 0.0) {
-            BxdfFlags::REFLECTION
-        } else {
-            BxdfFlags::TRANSMISSION
+    fn side(&self, [wo, wi]: [Vec3; 2], z: [f32; 2]) -> BxdfFlags {
+        let reflects = (wi.dot(self.ng) > 0.0) == (wo.dot(self.ng) > 0.0);
+        match (reflects, (z[0] > 0.0) == (z[1] > 0.0)) {
+            (true, true) => BxdfFlags::REFLECTION,
+            (false, false) => BxdfFlags::TRANSMISSION,
+            _ => BxdfFlags::empty(),
         }
     }
 
+    /// The lobes' values for a pair of directions in the world, which are `local` in shading coordinates.
     #[inline]
-    fn sum(&self, wo: Vec3, wi: Vec3, side: BxdfFlags, flags: BxdfFlags) -> Spectrum {
+    fn sum(&self, world: [Vec3; 2], local: [Vec3; 2], flags: BxdfFlags) -> Spectrum {
+        let side = self.side(world, local.map(|w| w.z));
+        let [wo, wi] = local;
         let mut f = Spectrum::BLACK;
         for (lobe, kind) in self.matching(flags) {
             if kind.intersects(side) {

@@ -16,7 +16,7 @@ pub use filter::{Filter, FilterError};
 pub use filter_sampler::FilterSampler;
 pub use output::{OutputError, check_writable, write_file};
 pub use picture::{Layers, Metadata, Picture, Window};
-pub use png::write_png;
+pub use png::{encode_png, write_png};
 pub use spread::Variance;
 pub use sums::{Film, FilmContents, FilmError};
 

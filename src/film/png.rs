@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
+use glam::UVec2;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 
@@ -40,12 +41,25 @@ pub fn write_png(
     replace(path, |file| file.write_all(&bytes))
 }
 
+/// The bytes of a PNG file of codes of three bands, row by row from the top left, without any notes.
+///
+/// # Errors
+/// If there is another number of codes than pixels need, or no pixel.
+pub fn encode_png(size: UVec2, codes: &[u8]) -> Result<Vec<u8>, String> {
+    let pixels = u64::from(size.x) * u64::from(size.y);
+    if pixels == 0 || codes.len() as u64 != 3 * pixels {
+        return Err(format!("{} codes do not make {} x {} pixels", codes.len(), size.x, size.y));
+    }
+    let mut bytes = Vec::new();
+    PngEncoder::new(&mut bytes)
+        .write_image(codes, size.x, size.y, ExtendedColorType::Rgb8)
+        .map_err(|error| error.to_string())?;
+    Ok(bytes)
+}
+
 fn encode(picture: &Picture, display: Display, metadata: &Metadata) -> Result<Vec<u8>, String> {
     let size = picture.window.size();
-    let mut image = Vec::new();
-    PngEncoder::new(&mut image)
-        .write_image(&display.codes(&picture.color), size.x, size.y, ExtendedColorType::Rgb8)
-        .map_err(|error| error.to_string())?;
+    let image = encode_png(size, &display.codes(&picture.color))?;
 
     // The encoder knows neither the sRGB chunk nor texts: both may stand right behind the header.
     let (head, body) = image.split_at(HEAD);

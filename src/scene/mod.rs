@@ -7,7 +7,9 @@ mod settings;
 use std::sync::Arc;
 
 pub use builder::{SceneBuilder, SceneError};
-pub use file::{LoadReport, LoadedScene, Place, Problem, SceneFileError, parse_scene, read_scene};
+pub use file::{
+    LoadReport, LoadedScene, Place, Problem, SceneFileError, parse_scene, read_scene, read_settings,
+};
 pub use settings::{
     Emission, FilmSettings, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings,
 };

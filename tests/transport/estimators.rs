@@ -78,3 +78,27 @@ fn all_samplers_give_one_value() {
         assert_alike(&reference, &estimate(auto, *kind), &format!("{kind:?}"));
     }
 }
+
+/// Normals that lean far from their surfaces, those of a ball on an octahedron, tilted towards the sky besides. Seen to
+/// fail with a Bsdf that reflects light from below the shading normal's horizon, which
+/// light sampling finds and no lobe draws.
+#[test]
+fn leaning_normals_have_one_value() {
+    let octahedron = || TriangleMesh { normals: ball(2).positions, ..ball(2) };
+    let under = |strategy, kind| {
+        let mut leaning = octahedron();
+        leaning.positions.iter_mut().for_each(|p| *p = *p * 1.5 + Vec3::Y);
+        leaning.normals.iter_mut().for_each(|n| *n = (*n + 0.8 * Vec3::Y).normalize());
+        let sampler = SamplerSettings { kind, spp: 2048, seed: kind as u64, replicates: 64 };
+        let path = IntegratorSettings::Path { max_depth: 3, roulette: false, strategy };
+        let scene = ball_over_floor(UVec2::new(24, 24))
+            .material("red", MatteMaterial::new([0.8, 0.5, 0.2]))
+            .shape("leaning", leaning, "red")
+            .light(SkyLight::new(Spectrum::splat(1.0)));
+        bands(&picture(scene.integrator(path).sampler(sampler)))
+    };
+    let reference = under(LightStrategy::Light, SamplerKind::Independent);
+    for strategy in [LightStrategy::Mis, LightStrategy::Bsdf] {
+        assert_alike(&reference, &under(strategy, SamplerKind::Sobol), &format!("{strategy:?}"));
+    }
+}

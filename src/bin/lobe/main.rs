@@ -1,5 +1,6 @@
 //! The command `lobe`: renders scene files, tells what is in them, and how far images are apart.
 
+mod chart;
 mod compare;
 mod info;
 mod output;
@@ -20,8 +21,9 @@ Examples:
   lobe render scene.toml -o a.png --spp 256 --set camera.fov=40
   lobe info scene.toml                                  triangles, bounds, tree, memory
   lobe compare a.exr reference.exr                      errors, FLIP, and whether noise explains them
+  lobe chart scene.toml                                 what accuracy costs, by each method
 
-`lobe help render`, `lobe help info` and `lobe help compare` have more of them.";
+`lobe help render` and so on have more of them.";
 
 /// Renders scenes of triangle meshes with PBRT's materials and reflection.
 #[derive(Parser)]
@@ -36,6 +38,7 @@ enum Command {
     Render(render::Arguments),
     Info(info::Arguments),
     Compare(compare::Arguments),
+    Chart(chart::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -43,6 +46,7 @@ fn main() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Chart(arguments) => chart::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -19,7 +19,10 @@ pub struct SceneArguments {
 
 impl SceneArguments {
     pub fn load(&self) -> Result<LoadedScene, SceneFileError> {
-        let overrides: Vec<&str> = self.set.iter().map(String::as_str).collect();
-        read_scene(&self.path, &overrides)
+        read_scene(&self.path, &self.overrides())
+    }
+
+    pub fn overrides(&self) -> Vec<&str> {
+        self.set.iter().map(String::as_str).collect()
     }
 }

@@ -31,7 +31,7 @@ impl Bias {
         let truth = image.pixels.iter().map(wide).zip(known.map(wide));
         let (columns, rows) = (image.size.x.div_ceil(TILE), image.size.y.div_ceil(TILE));
         let mut tiles = vec![(0.0, 0.0); (columns * rows) as usize];
-        let (mut difference, mut spread) = (0.0, 0.0);
+        let (mut difference, mut spread) = (0.0, DVec3::ZERO);
         for (place, ((mean, variance), (truth, own))) in (0_u32..).zip(pool.moments().zip(truth)) {
             let apart = mean - truth;
             let square = (apart * apart - variance - own) / weights(truth);
@@ -40,11 +40,13 @@ impl Bias {
             tile.0 += square.element_sum() / 3.0;
             tile.1 += 1.0;
             difference += apart.element_sum();
-            spread += (variance + own).element_sum();
+            spread += variance + own;
         }
         let bands = 3.0 * image.pixels.len() as f64;
         let square = scatter(&tiles);
-        let mean = (difference / bands, spread.sqrt() / bands);
+        // Pixels are independent of each other, the bands of one are not: their errors may add up.
+        let error = spread.to_array().map(f64::sqrt).iter().sum::<f64>();
+        let mean = (difference / bands, error / bands);
         Self { error: square.0.max(0.0).sqrt(), square, mean }
     }
 

@@ -4,11 +4,10 @@ mod digits;
 mod scale;
 
 use glam::UVec2;
-use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageEncoder};
 
 use super::errors::check;
 use super::{CompareError, Exposures, Image, Viewing, flip};
+use crate::film::encode_png;
 use digits::{HEIGHT, draw, width};
 use scale::{Scale, color};
 
@@ -91,7 +90,8 @@ impl ErrorMap {
             page[start..start + codes.len()].copy_from_slice(codes);
         }
         self.draw_bar(&mut page, size, height);
-        png(size, &page)
+        // The page has as many codes as it has pixels.
+        encode_png(size, &page).unwrap_or_default()
     }
 
     fn scale(&self) -> Scale {
@@ -145,12 +145,4 @@ fn differences(
     let both = image.pixels.iter().zip(&reference.pixels);
     let mean = |bands: [f32; 3]| bands.into_iter().map(of).sum::<f32>() / 3.0;
     Ok(both.map(|(&a, &b)| mean((a - b).to_array())).collect())
-}
-
-/// A PNG file of three bands of 8 bits.
-pub(super) fn png(size: UVec2, codes: &[u8]) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    // It could only fail for codes of another number than pixels, and no writer behind it.
-    let _ = PngEncoder::new(&mut bytes).write_image(codes, size.x, size.y, ExtendedColorType::Rgb8);
-    bytes
 }

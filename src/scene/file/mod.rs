@@ -16,7 +16,7 @@ use std::time::Instant;
 
 pub use error::{Place, Problem, SceneFileError};
 
-use super::Scene;
+use super::{IntegratorSettings, SamplerSettings, Scene};
 use crate::shape::ObjReport;
 use document::Document;
 
@@ -45,15 +45,33 @@ pub struct LoadReport {
 /// `path`.
 pub fn read_scene(path: &Path, overrides: &[&str]) -> Result<LoadedScene, SceneFileError> {
     let start = Instant::now();
-    let unreadable = |source| SceneFileError::Unreadable { path: path.to_owned(), source };
-    let text = String::from_utf8(std::fs::read(path).map_err(unreadable)?).map_err(|error| {
-        let offset = error.utf8_error().valid_up_to();
-        let place = document::file_place(path, error.as_bytes(), offset);
-        SceneFileError::Wrong { place, problem: Problem::Toml("the text is not UTF-8".into()) }
-    })?;
+    let text = read_text(path)?;
     let mut loaded = parse_scene(path, &text, overrides)?;
     loaded.report.seconds = start.elapsed().as_secs_f64() - loaded.scene.build_seconds();
     Ok(loaded)
+}
+
+/// How the scene file at `path` with `overrides` wants to be sampled and lit. No mesh is read.
+///
+/// # Errors
+/// As for [`read_scene`], but for what is wrong with names and meshes.
+pub fn read_settings(
+    path: &Path,
+    overrides: &[&str],
+) -> Result<(SamplerSettings, IntegratorSettings), SceneFileError> {
+    let text = read_text(path)?;
+    let document = Document::parse(path, &text, overrides)?;
+    let description = document.place(describe::describe(&document))?;
+    Ok((description.sampler, description.integrator))
+}
+
+fn read_text(path: &Path) -> Result<String, SceneFileError> {
+    let unreadable = |source| SceneFileError::Unreadable { path: path.to_owned(), source };
+    String::from_utf8(std::fs::read(path).map_err(unreadable)?).map_err(|error| {
+        let offset = error.utf8_error().valid_up_to();
+        let place = document::file_place(path, error.as_bytes(), offset);
+        SceneFileError::Wrong { place, problem: Problem::Toml("the text is not UTF-8".into()) }
+    })
 }
 
 /// Makes a scene from the text of a scene file, and from the meshes it names.

@@ -1,0 +1,121 @@
+//! [`Folder`]: where a chart stands, so that one that was interrupted goes on.
+
+use std::error::Error;
+use std::fs::{self, OpenOptions};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use lobe::film::{Metadata, Picture, Window, write_exr, write_file};
+use lobe::glam::UVec2;
+use lobe::metrics::Image;
+use lobe::metrics::convergence::{Pool, Run};
+
+use super::plan::Plan;
+
+/// A folder with the plan, the runs so far, and means of pictures by name and count.
+pub struct Folder {
+    path: PathBuf,
+}
+
+impl Folder {
+    /// Takes the folder, and makes it if it is not there.
+    pub fn open(path: &Path) -> Result<Self, Box<dyn Error>> {
+        fs::create_dir_all(path)
+            .map_err(|error| format!("cannot make the folder `{}`: {error}", path.display()))?;
+        Ok(Self { path: path.to_owned() })
+    }
+
+    pub fn join(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// Writes a file, all or nothing.
+    pub fn write(&self, name: &str, contents: &[u8]) -> Result<(), Box<dyn Error>> {
+        Ok(write_file(self.join(name), contents)?)
+    }
+
+    /// The plan of the chart that was begun here; `None` if there is none.
+    pub fn plan(&self) -> Result<Option<Plan>, Box<dyn Error>> {
+        let path = self.join("plan.toml");
+        match fs::read_to_string(&path) {
+            Ok(text) => Plan::from_toml(&text).map(Some).ok_or_else(|| {
+                format!("`{}` is no plan of a chart: choose another folder by -o", path.display())
+                    .into()
+            }),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(format!("cannot read `{}`: {error}", path.display()).into()),
+        }
+    }
+
+    /// Begins anew: forgets what was measured here.
+    pub fn begin(&self, plan: &Plan) -> Result<(), Box<dyn Error>> {
+        let _ = fs::remove_dir_all(self.join("means"));
+        let means = self.join("means");
+        fs::create_dir_all(&means)
+            .map_err(|error| format!("cannot make the folder `{}`: {error}", means.display()))?;
+        self.write("runs.csv", format!("{}\n", Run::HEADER).as_bytes())?;
+        self.write("plan.toml", plan.to_toml().as_bytes())
+    }
+
+    /// The runs so far. A last line that is not whole is left out, and written again later.
+    pub fn runs(&self) -> Result<Vec<Run>, Box<dyn Error>> {
+        let path = self.join("runs.csv");
+        let text = fs::read_to_string(&path)
+            .map_err(|error| format!("cannot read `{}`: {error}", path.display()))?;
+        let whole = &text[..text.rfind('\n').map_or(0, |end| end + 1)];
+        if whole.len() < text.len() {
+            self.write("runs.csv", whole.as_bytes())?;
+        }
+        let mut runs = Vec::new();
+        for line in whole.lines().skip(1) {
+            let run = line.parse().map_err(|error| format!("`{}`: {error}", path.display()))?;
+            runs.push(run);
+        }
+        Ok(runs)
+    }
+
+    pub fn add_run(&self, run: &Run) -> Result<(), Box<dyn Error>> {
+        let path = self.join("runs.csv");
+        OpenOptions::new()
+            .append(true)
+            .open(&path)
+            .and_then(|mut file| file.write_all(format!("{run}\n").as_bytes()))
+            .map_err(|error| format!("cannot write to `{}`: {error}", path.display()).into())
+    }
+
+    /// The mean of that name; empty if nothing was added to it yet.
+    pub fn pool(&self, name: &str) -> Result<Pool, Box<dyn Error>> {
+        match self.count(name) {
+            0 => Ok(Pool::default()),
+            count => {
+                let image = Image::read(self.mean(name, count))?;
+                Ok(Pool::from_image(&image, count))
+            }
+        }
+    }
+
+    /// How many pictures the mean of that name has.
+    pub fn count(&self, name: &str) -> u32 {
+        let is_there = |count: &u32| self.mean(name, *count).exists();
+        (1..=MOST).rev().find(is_there).unwrap_or(0)
+    }
+
+    /// Puts the mean in the place of the one with a picture less.
+    pub fn save(&self, name: &str, pool: &Pool, size: UVec2) -> Result<(), Box<dyn Error>> {
+        let (color, variance) = pool.pixels();
+        let picture =
+            Picture { resolution: size, window: Window::full(size), color, variance, layers: None };
+        write_exr(self.mean(name, pool.count()), &picture, &Metadata::default())?;
+        let _ = fs::remove_file(self.mean(name, pool.count() - 1));
+        Ok(())
+    }
+
+    fn mean(&self, name: &str, count: u32) -> PathBuf {
+        let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
+        let name: String = name.chars().map(plain).collect();
+        self.path.join("means").join(format!("{name}-{count}.exr"))
+    }
+}
+
+/// The most pictures that a mean is made of.
+pub const MOST: u32 = 64;

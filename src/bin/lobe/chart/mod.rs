@@ -1,0 +1,159 @@
+//! `lobe chart`: error against time and samples, of all methods that a scene could be rendered by.
+
+mod folder;
+mod measure;
+mod methods;
+mod page;
+mod plan;
+mod report;
+mod steps;
+
+use std::error::Error;
+use std::ffi::OsString;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{Args, value_parser};
+use lobe::RenderOptions;
+use lobe::metrics::convergence::{Method, Other};
+use lobe::metrics::{Errors, Image};
+use lobe::scene::read_settings;
+
+use crate::scene::SceneArguments;
+use folder::Folder;
+use measure::Bench;
+
+const EXAMPLES: &str = r#"Examples:
+  lobe chart dragon-sky.toml                            five minutes, then dragon-sky-chart/index.html
+  lobe chart dragon-sky.toml --time 60 --set film.resolution=[128,128]
+  lobe chart scene.toml --methods list.toml             methods of your own, see below
+  lobe chart scene.toml --add "Mitsuba, 64 spp=other.exr,5.6"
+
+A list of methods is a TOML file. Each has a name and what --set would take for it:
+  [methods]
+  "sobol, one set" = ['sampler.type="sobol"', 'sampler.replicates=1']
+  "light alone" = ['sampler.type="sobol"', 'integrator.strategy="light"']
+
+Errors are roots of relMSE, mean of (a - b)² / (b² + 0.01), against a reference by other seeds, whose own
+error is taken off and drawn as a floor. A chart that was interrupted goes on where it was; a finished one is
+only drawn again."#;
+
+/// Charts error against time and samples for each way to render a scene: SVG, CSV and a page
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+
+    /// The folder to write to [default: NAME-chart for NAME.toml]
+    #[arg(short, long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+
+    /// A list of methods [default: each sampler, and Sobol points with each other strategy and roulette]
+    #[arg(long, value_name = "FILE")]
+    methods: Option<PathBuf>,
+
+    /// About how long it may take: decides on how many samples there are at most
+    #[arg(long, value_name = "SECONDS", default_value_t = 300.0, value_parser = seconds)]
+    time: f64,
+
+    /// The numbers of samples per pixel, in place of powers of two for as long as there is time
+    #[arg(long, value_name = "N,...", value_delimiter = ',', value_parser = value_parser!(u32).range(1..1 << 24))]
+    budgets: Vec<u32>,
+
+    /// How many pictures, by different seeds, for each method and number of samples
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = value_parser!(u32).range(2..=64))]
+    seeds: u32,
+
+    /// A picture by another program, EXR or PFM, and the seconds it took; may be repeated
+    #[arg(long, value_name = "LABEL=IMAGE,SECONDS", value_parser = added)]
+    add: Vec<Added>,
+
+    /// Begins anew, whatever the folder holds
+    #[arg(long)]
+    fresh: bool,
+
+    /// How many threads, up to 1024 [default: all that the machine has]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+
+    /// Prints nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Another program's picture, as it was named.
+#[derive(Clone)]
+struct Added {
+    label: String,
+    path: PathBuf,
+    seconds: f64,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse().ok().filter(|s: &f64| s.is_finite() && *s > 0.0);
+    seconds.ok_or("expected a number of seconds above 0".into())
+}
+
+fn added(text: &str) -> Result<Added, String> {
+    let parts = || {
+        let (label, rest) = text.split_once('=')?;
+        let (path, time) = rest.rsplit_once(',')?;
+        let is_empty = label.is_empty() || path.is_empty();
+        (!is_empty).then_some((label.into(), path.into(), seconds(time).ok()?))
+    };
+    let (label, path, seconds) =
+        parts().ok_or("expected LABEL=IMAGE,SECONDS such as Mitsuba=other.exr,5.6")?;
+    Ok(Added { label, path, seconds })
+}
+
+pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    let Arguments { scene: file, output, seeds, fresh, .. } = arguments;
+    let folder = output.clone().unwrap_or_else(|| {
+        let mut name: OsString = file.path.file_stem().unwrap_or("scene".as_ref()).to_owned();
+        name.push("-chart");
+        name.into()
+    });
+    // What can be wrong with the arguments comes before what takes time.
+    let named = match &arguments.methods {
+        Some(path) => methods::read(path, file)?,
+        None => {
+            let (sampler, integrator) = read_settings(&file.path, &file.overrides())?;
+            methods::usual(sampler, integrator)
+        }
+    };
+    let images: Vec<Image> =
+        arguments.add.iter().map(|added| Image::read(&added.path)).collect::<Result<_, _>>()?;
+    let scene = file.load()?.scene;
+    let folder = Folder::open(&folder)?;
+
+    let options = RenderOptions {
+        threads: arguments.threads.and_then(|threads| NonZeroUsize::new(threads.into())),
+        ..RenderOptions::default()
+    };
+    let method = |(name, sampler, integrator): &methods::Named| {
+        Method::of_settings(&scene, name, *sampler, *integrator, options)
+    };
+    let mut bench = Bench {
+        scene: &scene,
+        methods: named.iter().map(method).collect(),
+        notes: Vec::new(),
+        options,
+        folder,
+        is_quiet: arguments.quiet,
+    };
+    let mut budgets = arguments.budgets.clone();
+    budgets.sort_unstable();
+    budgets.dedup();
+    let limits = measure::Limits { budgets, seconds: arguments.time, seeds: *seeds, fresh: *fresh };
+    let measured = bench.measure(&limits)?;
+    let mut others = Vec::new();
+    for (Added { label, seconds, path }, image) in arguments.add.iter().zip(&images) {
+        let errors = Errors::between(image, measured.reference.image())
+            .map_err(|error| format!("`{}`: {error}", path.display()))?;
+        let (label, seconds) = (label.clone(), *seconds);
+        others.push(Other { label, seconds, rel_mse: errors.rel_mse });
+    }
+    let name = file.path.file_stem().unwrap_or("scene".as_ref()).to_string_lossy();
+    report::write(&bench, measured, others, &name)
+}

@@ -1,0 +1,231 @@
+//! The page of a chart: curves, pictures and numbers in one file.
+
+use std::error::Error;
+use std::fmt::Write;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use lobe::film::{Display, encode_png};
+use lobe::glam::UVec2;
+use lobe::metrics::chart::{Chart, escape};
+use lobe::metrics::convergence::{Curve, Study};
+use lobe::metrics::{ErrorMap, Errors, Image, Viewing};
+
+use super::measure::Bench;
+use super::plan::Plan;
+
+const STYLE: &str = "\
+:root{color-scheme:light dark}
+body{font:15px/1.5 system-ui,-apple-system,'Segoe UI',Roboto,Helvetica,Arial,sans-serif;max-width:900px;margin:0 auto;padding:12px;color:#222;background:#fff}
+h1{font-size:22px}h2{font-size:17px;margin-top:28px}
+svg.lobe{display:block;max-width:720px;width:100%;margin:12px 0}
+table{border-collapse:collapse;font-size:13px;display:block;overflow-x:auto}
+td,th{padding:3px 9px;text-align:right;border-bottom:1px solid #ddd;white-space:nowrap}
+td:first-child,th:first-child{text-align:left}
+figure{margin:0}figcaption{font-size:12.5px;line-height:1.35;margin:3px 0 10px}
+.grid{display:grid;grid-template-columns:repeat(auto-fill,minmax(260px,1fr));gap:12px}
+.pair{display:grid;grid-template-columns:1fr 1fr;gap:3px}
+img{width:100%;image-rendering:pixelated;display:block}
+.whole{max-width:600px;image-rendering:auto}
+@media(prefers-color-scheme:dark){body{color:#e6e6e6;background:#0d1117}td,th{border-color:#30363d}}
+";
+
+/// Columns and rows of the part of the pictures that is shown.
+const CROP: u32 = 96;
+
+/// The whole page, which needs no other file.
+pub fn html(
+    bench: &Bench,
+    study: &Study,
+    plan: &Plan,
+    remarks: &[String],
+    charts: [&Chart; 3],
+) -> Result<String, Box<dyn Error>> {
+    let title = escape(&format!("{}: error against time", study.scene));
+    let mut page = format!(
+        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n\
+         <title>{title}</title>\n<style>\n{STYLE}</style>\n<h1>{title}</h1>\n"
+    );
+    let size = bench.scene.film().window().size();
+    let _ = writeln!(
+        page,
+        "<p>{} × {} pixels, {} triangles, {} threads. Medians of {} seeds; bars are quartiles. Errors are roots of relMSE, \
+         mean of (a − b)² / (b² + 0.01), against a reference of {} samples by other seeds, whose own error of {:.2e} \
+         is taken off. The grey band joins what no other method beats.</p>\n<ul>",
+        size.x,
+        size.y,
+        bench.scene.accel().triangle_count(),
+        threads(bench),
+        plan.seeds,
+        Plan::PARTS * plan.part_spp(),
+        study.reference.floor()
+    );
+    for remark in remarks {
+        let _ = writeln!(page, "<li>{}</li>", escape(remark));
+    }
+    page.push_str("</ul>\n");
+    for chart in charts {
+        page.push_str(&chart.svg());
+    }
+    pictures(&mut page, bench, study)?;
+    table(&mut page, study);
+    page.push_str("</html>\n");
+    Ok(page)
+}
+
+fn threads(bench: &Bench) -> usize {
+    let all = || std::thread::available_parallelism().map_or(1, usize::from);
+    bench.options.threads.map_or_else(all, usize::from)
+}
+
+/// A picture of each method after the same time, where they are worst, with its error.
+fn pictures(page: &mut String, bench: &Bench, study: &Study) -> Result<(), Box<dyn Error>> {
+    let reference = study.reference.image();
+    let Some(time) = common_time(&study.curves) else { return Ok(()) };
+    let mut shots = Vec::new();
+    for (method, curve) in bench.methods.iter().zip(&study.curves) {
+        let spp = samples_in(curve, time);
+        let (image, [set_up, seconds]) = method.render(spp, bench.scene.sampler().seed + 1)?;
+        let errors = Errors::between(&image, reference)?;
+        let (flip, _) = ErrorMap::flip(&image, reference, Viewing::default())?;
+        shots.push((method.name(), spp, set_up + seconds, image, errors, flip.mean()));
+    }
+    let maps: Vec<ErrorMap> = shots
+        .iter()
+        .map(|(_, _, _, image, ..)| ErrorMap::signed(image, reference))
+        .collect::<Result<_, _>>()?;
+    let limit = maps.iter().map(|map| map.limit).fold(0.0, f32::max);
+    let window = worst(&maps, reference.size);
+    let display = bench.scene.film().display;
+    let _ = writeln!(
+        page,
+        "<h2>The reference</h2>\n<img class=\"whole\" alt=\"The reference\" src=\"{}\">\n\
+         <h2>About {time:.2} s of each</h2>\n<p>{} × {} pixels from column {} and row {}, where the methods are worst, and \
+         their error: blue is too dark, red too bright, by up to {limit:.2}. FLIP is that of the whole picture.</p>\n\
+         <div class=\"grid\">",
+        data(reference.size, &display.codes(&reference.pixels))?,
+        window.size.x,
+        window.size.y,
+        window.at.x,
+        window.at.y
+    );
+    figure(page, &window, display, reference, None, "reference")?;
+    for ((name, spp, seconds, image, errors, flip), map) in shots.iter().zip(maps) {
+        let error = study.reference.claimed(errors.rel_mse);
+        let error = error.map_or("not claimed".into(), |error| format!("{error:.2e}"));
+        let caption =
+            format!("{name}: {spp} samples, {seconds:.2} s, error {error}, FLIP {flip:.4}");
+        figure(page, &window, display, image, Some(&ErrorMap { limit, ..map }), &caption)?;
+    }
+    page.push_str("</div>\n");
+    Ok(())
+}
+
+fn figure(
+    page: &mut String,
+    window: &Crop,
+    display: Display,
+    image: &Image,
+    map: Option<&ErrorMap>,
+    caption: &str,
+) -> Result<(), Box<dyn Error>> {
+    let caption = escape(caption);
+    let part = data(window.size, &window.of(&display.codes(&image.pixels), image.size))?;
+    let _ = write!(page, "<figure><div class=\"pair\"><img alt=\"{caption}\" src=\"{part}\">");
+    if let Some(map) = map {
+        let part = data(window.size, &window.of(&map.codes(), image.size))?;
+        let _ = write!(page, "<img alt=\"Its error\" src=\"{part}\">");
+    }
+    let _ = writeln!(page, "</div><figcaption>{caption}</figcaption></figure>");
+    Ok(())
+}
+
+/// A part of the pictures.
+struct Crop {
+    at: UVec2,
+    size: UVec2,
+}
+
+impl Crop {
+    /// Its codes.
+    fn of(&self, codes: &[u8], size: UVec2) -> Vec<u8> {
+        let row = |y: u32| {
+            let start = 3 * ((self.at.y + y) * size.x + self.at.x) as usize;
+            &codes[start..start + 3 * self.size.x as usize]
+        };
+        (0..self.size.y).flat_map(row).copied().collect()
+    }
+}
+
+/// The part, at multiples of half its size, that has the largest sum of squared errors.
+fn worst(maps: &[ErrorMap], size: UVec2) -> Crop {
+    let part = size.min(UVec2::splat(CROP));
+    let sum = |at: UVec2| {
+        let row = |map: &ErrorMap, y: u32| {
+            let start = ((at.y + y) * size.x + at.x) as usize;
+            let values = &map.values[start..start + part.x as usize];
+            values.iter().map(|&value| f64::from(value.min(map.limit).powi(2))).sum::<f64>()
+        };
+        maps.iter().map(|map| (0..part.y).map(|y| row(map, y)).sum::<f64>()).sum::<f64>()
+    };
+    let step = (part / 2).max(UVec2::ONE);
+    let places = |size: u32, part: u32, step: u32| (0..=size - part).step_by(step as usize);
+    let all = places(size.y, part.y, step.y)
+        .flat_map(|y| places(size.x, part.x, step.x).map(move |x| UVec2::new(x, y)));
+    let at = all.max_by(|&a, &b| sum(a).total_cmp(&sum(b))).unwrap_or_default();
+    Crop { at, size: part }
+}
+
+/// A time that all curves span, in the middle of their logarithms; what the fastest takes for its most samples if there is
+/// none.
+fn common_time(curves: &[Curve]) -> Option<f64> {
+    let ends = |curve: &Curve| Some((curve.points.first()?.time(), curve.points.last()?.time()));
+    let low = curves.iter().filter_map(ends).map(|(low, _)| low).fold(0.0, f64::max);
+    let high = curves.iter().filter_map(ends).map(|(_, high)| high).fold(f64::INFINITY, f64::min);
+    high.is_finite().then(|| if low < high { (low * high).sqrt() } else { high })
+}
+
+/// How many samples a method takes in so long.
+fn samples_in(curve: &Curve, time: f64) -> u32 {
+    let (Some(first), Some(last)) = (curve.points.first(), curve.points.last()) else { return 1 };
+    let more = f64::from(last.spp - first.spp).max(1.0);
+    let each = ((last.time() - first.time()) / more).max(1e-9);
+    (f64::from(first.spp) + (time - first.time()) / each).round().max(1.0) as u32
+}
+
+fn table(page: &mut String, study: &Study) {
+    page.push_str(
+        "<h2>Numbers</h2>\n<table>\n<tr><th>method<th>samples<th>set-up, s<th>rendering, s<th>error<th>quartiles\n",
+    );
+    for curve in &study.curves {
+        for point in &curve.points {
+            let (error, range) = match point.error {
+                Some([q1, median, q3]) => {
+                    (format!("{median:.3e}"), format!("{q1:.3e} to {q3:.3e}"))
+                }
+                None => ("not claimed".into(), String::new()),
+            };
+            let _ = writeln!(
+                page,
+                "<tr><td>{}<td>{}<td>{:.4}<td>{:.4}<td>{error}<td>{range}",
+                escape(&curve.method),
+                point.spp,
+                point.set_up,
+                point.seconds
+            );
+        }
+    }
+    for other in &study.others {
+        let error = study.reference.claimed(other.rel_mse);
+        let error = error.map_or("not claimed".into(), |error| format!("{error:.3e}"));
+        let label = escape(&other.label);
+        let _ = writeln!(page, "<tr><td>{label}<td><td><td>{:.4}<td>{error}<td>", other.seconds);
+    }
+    page.push_str("</table>\n");
+}
+
+/// A PNG file as an address.
+fn data(size: UVec2, codes: &[u8]) -> Result<String, String> {
+    Ok(format!("data:image/png;base64,{}", STANDARD.encode(encode_png(size, codes)?)))
+}

@@ -1,0 +1,96 @@
+//! [`Plan`]: how many samples, seeds and parts of the reference.
+
+/// What a method's picture costs, in seconds.
+#[derive(Clone, Copy, Debug)]
+pub struct Cost {
+    /// Whatever the number of samples is.
+    pub fixed: f64,
+    /// For each sample per pixel.
+    pub per_sample: f64,
+}
+
+impl Cost {
+    /// From how long two numbers of samples took.
+    pub fn new((few, short): (u32, f64), (many, long): (u32, f64)) -> Self {
+        let per_sample = ((long - short) / f64::from(many - few)).max(1e-6);
+        Self { fixed: (short - per_sample * f64::from(few)).max(0.0), per_sample }
+    }
+
+    pub fn of(&self, spp: u32) -> f64 {
+        self.fixed + self.per_sample * f64::from(spp)
+    }
+}
+
+/// What is rendered. A chart that was interrupted goes on with the same plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Samples per pixel, rising.
+    pub budgets: Vec<u32>,
+    /// How many pictures of each method with each of them.
+    pub seeds: u32,
+    /// Tells scene and methods from others.
+    pub print: u32,
+}
+
+impl Plan {
+    /// Parts of the reference, and the samples that each has for one of the largest budget: so its squared error is about a
+    /// thirtieth of what the best methods reach, or less.
+    pub const PARTS: u32 = 8;
+    pub const PART_SPP: u32 = 4;
+    /// Parts of the check, which have as many samples as the largest budget.
+    pub const CHECK_PARTS: u32 = 4;
+
+    /// Powers of two, as many as the time allows; at least up to 4.
+    pub fn for_time(
+        seconds: f64,
+        seeds: u32,
+        methods: &[Cost],
+        [reference, check]: [Cost; 2],
+        print: u32,
+    ) -> Self {
+        let plan =
+            |count: u32| Self { budgets: (0..count).map(|k| 1 << k).collect(), seeds, print };
+        let fits = |count: &u32| plan(*count).seconds(methods, [reference, check]) <= seconds;
+        plan((4..=16).take_while(fits).last().unwrap_or(3))
+    }
+
+    /// The largest number of samples.
+    pub fn most(&self) -> u32 {
+        self.budgets.last().copied().unwrap_or(1)
+    }
+
+    /// Samples of a part of the reference.
+    pub fn part_spp(&self) -> u32 {
+        Self::PART_SPP.saturating_mul(self.most())
+    }
+
+    /// What all of it takes.
+    pub fn seconds(&self, methods: &[Cost], [reference, check]: [Cost; 2]) -> f64 {
+        let runs = methods.iter().flat_map(|cost| self.budgets.iter().map(|&spp| cost.of(spp)));
+        f64::from(self.seeds) * runs.sum::<f64>()
+            + f64::from(Self::PARTS) * reference.of(self.part_spp())
+            + f64::from(Self::CHECK_PARTS) * check.of(self.most())
+    }
+
+    /// The plan as it is kept, in lines of TOML.
+    pub fn to_toml(&self) -> String {
+        let Self { budgets, seeds, print } = self;
+        format!(
+            "# What `lobe chart` renders here.\nbudgets = {budgets:?}\nseeds = {seeds}\nprint = {print}\n"
+        )
+    }
+
+    /// What [`to_toml`](Self::to_toml) wrote.
+    pub fn from_toml(text: &str) -> Option<Self> {
+        let value =
+            |key: &str| text.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(" = "));
+        let budgets = value("budgets")?.strip_prefix('[')?.strip_suffix(']')?;
+        let budgets: Option<Vec<u32>> =
+            budgets.split(',').map(|spp| spp.trim().parse().ok()).collect();
+        Some(Self {
+            budgets: budgets?,
+            seeds: value("seeds")?.parse().ok()?,
+            print: value("print")?.parse().ok()?,
+        })
+    }
+}

@@ -1,0 +1,111 @@
+//! What a chart says: files in its folder, and lines on the terminal.
+
+use std::error::Error;
+
+use lobe::metrics::convergence::{Bias, Distrust, Other, Study, front};
+
+use super::measure::{Bench, Measured};
+use super::page;
+use crate::summary::Summary;
+
+/// Writes charts, tables and the page, and says what is in them.
+pub fn write(
+    bench: &Bench,
+    measured: Measured,
+    others: Vec<Other>,
+    scene: &str,
+) -> Result<(), Box<dyn Error>> {
+    let Measured { reference, curves, biases, check, plan } = measured;
+    let study = Study { scene: scene.into(), reference, curves, biases, others };
+    let charts = [
+        ("error-by-time.svg", study.error_by_time()),
+        ("error-by-samples.svg", study.error_by_samples()),
+        ("equal-time.svg", study.error_at_equal_time()),
+    ];
+    let mut written = Vec::new();
+    for (name, chart) in &charts {
+        bench.folder.write(name, chart.svg().as_bytes())?;
+        written.push(*name);
+    }
+    bench.folder.write("curves.csv", study.csv().as_bytes())?;
+    let remarks = remarks(bench, &study, &check);
+    let [by_time, by_samples, equal_time] = &charts;
+    let page =
+        page::html(bench, &study, &plan, &remarks, [&by_time.1, &by_samples.1, &equal_time.1])?;
+    bench.folder.write("index.html", page.as_bytes())?;
+    written.extend(["curves.csv", "runs.csv", "index.html"]);
+    if bench.is_quiet {
+        return Ok(());
+    }
+
+    let mut summary = Summary::default();
+    summary.add("scene", scene);
+    summary.add("samples", format!("{:?} per pixel, {} seeds each", plan.budgets, plan.seeds));
+    summary
+        .add("reference", format!("{:.3e} its own error, root of relMSE", study.reference.floor()));
+    for curve in &study.curves {
+        let slope = curve.slope_by_samples().map_or("no slope".into(), |s| format!("slope {s:.3}"));
+        let last = curve.claimed().last();
+        let last = last.map_or("nothing claimed".into(), |(point, error)| {
+            format!("{error:.3e} after {} samples, {:.3} s", point.spp, point.time())
+        });
+        summary.add("method", format!("{}: {last}, {slope}", curve.method));
+    }
+    for (number, point) in front(&study.curves) {
+        let error = point.error.map_or(0.0, |error| error[1]);
+        let name = &study.curves[number].method;
+        summary.add(
+            "best",
+            format!("{:.3} s: {name}, {} samples, {error:.3e}", point.time(), point.spp),
+        );
+    }
+    for remark in &remarks {
+        summary.add("note", remark);
+    }
+    for name in written {
+        summary.add("wrote", bench.folder.join(name).display());
+    }
+    Ok(summary.print()?)
+}
+
+/// Sentences on what can be trusted and what not.
+fn remarks(bench: &Bench, study: &Study, check: &Bias) -> Vec<String> {
+    let mut remarks = bench.notes.clone();
+    let Study { reference, curves, biases, .. } = study;
+    if let Some(Distrust::Rare { .. }) = reference.distrust() {
+        remarks.extend(
+            reference
+                .distrust()
+                .map(|distrust| format!("{distrust}; render more of it by more --time")),
+        );
+    }
+    let points = || curves.iter().flat_map(|curve| &curve.points);
+    let hidden = points().filter(|point| point.error.is_none()).count();
+    if hidden > 0 {
+        remarks.push(format!(
+            "{hidden} of {} points are below the reference's own error and not claimed: the reference has not \
+             converged far enough for them",
+            points().count()
+        ));
+    }
+    remarks.push(if check.is_certain() {
+        format!(
+            "the reference and its check, light sampling alone by independent samples, differ by {:.2e}, which noise \
+             does not explain: one of both is wrong, or has not seen rare bright samples",
+            check.size()
+        )
+    } else {
+        "the reference and its check, light sampling alone by independent samples, differ by no more than noise".into()
+    });
+    for (curve, bias) in curves.iter().zip(biases) {
+        let Some(bias) = bias.filter(Bias::is_certain) else { continue };
+        let (mean, error) = bias.mean;
+        remarks.push(format!(
+            "{} is biased by {:.2e}: no number of samples takes it away; on average it is {mean:+.2e} off in radiance \
+             (standard error {error:.1e})",
+            curve.method,
+            bias.size()
+        ));
+    }
+    remarks
+}
