@@ -64,6 +64,14 @@ impl Pen {
         ));
     }
 
+    /// Read from the right.
+    fn upright(&mut self, class: &str, (x, y): (f64, f64), content: &str) {
+        let content = escape(content);
+        self.put(format_args!(
+            r#"<text class="{class}" x="{x:.1}" y="{y:.1}" text-anchor="middle" transform="rotate(-90 {x:.1} {y:.1})">{content}</text>"#
+        ));
+    }
+
     fn path(&mut self, class: &str, points: &[(f64, f64)]) {
         if points.len() > 1 {
             let points: Vec<_> = points.iter().map(|(x, y)| format!("{x:.1} {y:.1}")).collect();
@@ -114,17 +122,14 @@ impl Pen {
             self.text("", (LEFT - 6.0, row + 4.0), "end", &y.label(tick));
         }
         self.text("", (0.5 * (LEFT + RIGHT), bottom + 34.0), "middle", &chart.x.title);
-        let (middle, title) = (0.5 * (top + bottom), escape(&chart.y.title));
-        self.put(format_args!(
-            r#"<text x="14" y="{middle}" text-anchor="middle" transform="rotate(-90 14 {middle})">{title}</text>"#
-        ));
+        self.upright("", (14.0, 0.5 * (top + bottom)), &chart.y.title);
         if let Some((height, note)) = floor {
             self.text("note", (LEFT + 4.0, up(height) + 13.0), "start", note);
         }
         for (value, note) in &chart.marks {
             let Some(column) = x.place(*value).map(across) else { continue };
             self.path("mark", &[(column, top), (column, bottom)]);
-            self.text("note", (column + 4.0, top + 13.0), "start", note);
+            self.upright("note", (column + 12.0, 0.5 * (top + bottom)), note);
         }
         let front: Vec<_> = chart.front.iter().filter_map(|&(px, py)| at(px, py)).collect();
         self.path("front", &front);

@@ -72,9 +72,9 @@ impl Curve {
         slope(self.claimed().map(|(point, error)| (f64::from(point.spp), error)))
     }
 
-    /// The same over the time.
+    /// The same over the time of rendering alone: set-up would make it steeper for as long as it is most of the time.
     pub fn slope_by_time(&self) -> Option<f64> {
-        slope(self.claimed().map(|(point, error)| (point.time(), error)))
+        slope(self.claimed().map(|(point, error)| (point.seconds, error)))
     }
 
     /// The error after so many seconds, on straight lines between the logarithms of claimed points; `None` outside.

@@ -157,7 +157,13 @@ impl Study {
         let floor = self.reference.floor();
         let note = format!("below the reference's own error of {floor:.2e} nothing is claimed");
         Chart {
-            y: Axis { title: ERROR.into(), scale: Scale::Log, ..Axis::default() },
+            y: Axis {
+                title: ERROR.into(),
+                scale: Scale::Log,
+                // Room for the note.
+                least: Some((floor / 1.7, floor)),
+                ..Axis::default()
+            },
             floor: Some((floor, note)),
             ..Chart::default()
         }

@@ -6,7 +6,6 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use lobe::film::{Metadata, Picture, Window, write_exr, write_file};
-use lobe::glam::UVec2;
 use lobe::metrics::Image;
 use lobe::metrics::convergence::{Pool, Run};
 
@@ -49,6 +48,8 @@ impl Folder {
 
     /// Begins anew: forgets what was measured here.
     pub fn begin(&self, plan: &Plan) -> Result<(), Box<dyn Error>> {
+        // The plan goes first and comes last: without it there is nothing to go on with.
+        let _ = fs::remove_file(self.join("plan.toml"));
         let _ = fs::remove_dir_all(self.join("means"));
         let means = self.join("means");
         fs::create_dir_all(&means)
@@ -100,11 +101,15 @@ impl Folder {
         (1..=MOST).rev().find(is_there).unwrap_or(0)
     }
 
-    /// Puts the mean in the place of the one with a picture less.
-    pub fn save(&self, name: &str, pool: &Pool, size: UVec2) -> Result<(), Box<dyn Error>> {
+    /// Adds a picture to the mean of that name, and gives it back as it will be read again: what follows from it
+    /// does not depend on interruptions.
+    pub fn add(&self, name: &str, pool: &mut Pool, image: &Image) -> Result<(), Box<dyn Error>> {
+        pool.add(&image.pixels);
         let (color, variance) = pool.pixels();
-        let picture =
-            Picture { resolution: size, window: Window::full(size), color, variance, layers: None };
+        let mean = Image { pixels: color.clone(), variance: variance.clone(), ..image.clone() };
+        *pool = Pool::from_image(&mean, pool.count());
+        let (resolution, window) = (image.size, Window::full(image.size));
+        let picture = Picture { resolution, window, color, variance, layers: None };
         write_exr(self.mean(name, pool.count()), &picture, &Metadata::default())?;
         let _ = fs::remove_file(self.mean(name, pool.count() - 1));
         Ok(())

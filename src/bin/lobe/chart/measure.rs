@@ -61,17 +61,20 @@ impl<'a> Bench<'a> {
             + f64::from(done_parts[0]) * truth_costs[0].of(plan.part_spp())
             + f64::from(done_parts[1]) * truth_costs[1].of(plan.most());
         let steps = Steps::new(plan.seconds(&costs, truth_costs), done, self.is_quiet);
-        if done > 0.0 && !self.is_quiet {
-            let all = plan.seeds as usize * plan.budgets.len() * self.methods.len();
-            eprintln!("going on: {} of {all} pictures are there", runs.len());
-        }
+        let all = plan.seeds as usize * plan.budgets.len() * self.methods.len();
+        steps.say(format!(
+            "{} methods, {:?} samples, {} seeds: {} of {all} pictures are there",
+            self.methods.len(),
+            plan.budgets,
+            plan.seeds,
+            runs.len()
+        ));
         let truth = |name: &str, method: &Method, parts: u32, spp: u32, seeds: u64, cost: Cost| {
             let mut pool = self.folder.pool(name)?;
             while pool.count() < parts {
                 steps.begin(format!("{name}, part {} of {parts}", pool.count() + 1));
                 let (image, _) = method.render(spp, seed + seeds + u64::from(pool.count()))?;
-                pool.add(&image.pixels);
-                self.folder.save(name, &pool, image.size)?;
+                self.folder.add(name, &mut pool, &image)?;
                 steps.done(cost.of(spp));
             }
             Ok::<Pool, Box<dyn Error>>(pool)
@@ -172,14 +175,6 @@ impl<'a> Bench<'a> {
             budgets => Plan { budgets: budgets.to_vec(), seeds: *seeds, print },
         };
         self.folder.begin(&plan)?;
-        if !self.is_quiet {
-            eprintln!(
-                "{} methods, {:?} samples, {seeds} seeds: about {:.0} s",
-                self.methods.len(),
-                plan.budgets,
-                plan.seconds(costs, truths)
-            );
-        }
         Ok(plan)
     }
 
@@ -215,8 +210,7 @@ impl<'a> Bench<'a> {
                     // One more than there are runs was kept if the end came between both.
                     if spp == plan.most() && u64::from(self.folder.count(&mean)) == number {
                         let mut pool = self.folder.pool(&mean)?;
-                        pool.add(&image.pixels);
-                        self.folder.save(&mean, &pool, image.size)?;
+                        self.folder.add(&mean, &mut pool, &image)?;
                     }
                     self.folder.add_run(&run)?;
                     steps.done(costs[place].of(spp));

@@ -21,6 +21,11 @@ impl Steps {
         Self((!is_quiet).then(bar))
     }
 
+    /// A line above the bar.
+    pub fn say(&self, line: String) {
+        self.0.iter().for_each(|bar| bar.println(&line));
+    }
+
     /// What comes next.
     pub fn begin(&self, what: String) {
         self.0.iter().for_each(|bar| bar.set_message(what.clone()));

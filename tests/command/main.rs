@@ -5,96 +5,12 @@
 //! layers; `print!` for the summary, which panics when the pipe is closed; a film whose number of bytes
 //! overflows; exit code 0 for errors.
 
-use std::ffi::OsStr;
+mod chart;
+mod folder;
+
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
-const SCENE: &str = r#"
-[camera]
-eye = [0, 1, -3]
-[film]
-resolution = [20, 10]
-[sampler]
-spp = 2
-[material.clay]
-type = "matte"
-[light.key]
-type = "point"
-position = [0, 3, -3]
-intensity = [9, 9, 9]
-[shape.wall]
-obj = "wall.obj"
-material = "clay"
-"#;
-
-const WALL: &str = "v -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\nv 9 9 9\nf 1 2 3\nf 1 3 4\nf 1 1 2\n";
-
-/// A folder of a test's own that holds `s.toml` and `wall.obj`, and nothing else.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(test: &str) -> Self {
-        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("command").join(test);
-        let _ = fs::remove_dir_all(&path);
-        fs::create_dir_all(&path).unwrap();
-        let folder = Self(path);
-        folder.write("s.toml", SCENE);
-        folder.write("wall.obj", WALL);
-        folder
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        fs::write(self.0.join(name), text).unwrap();
-    }
-
-    fn command<S: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = S>) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_lobe"));
-        command.current_dir(&self.0).args(arguments);
-        command
-    }
-
-    /// Runs the command in the folder, with words that blanks separate.
-    fn run(&self, arguments: &str) -> Output {
-        self.command(arguments.split_whitespace()).output().unwrap()
-    }
-
-    /// What the command prints when all goes well: then nothing comes on stderr.
-    #[track_caller]
-    fn prints(&self, arguments: &str) -> String {
-        let Output { status, stdout, stderr } = self.run(arguments);
-        assert_eq!(String::from_utf8(stderr).unwrap(), "");
-        assert!(status.success());
-        String::from_utf8(stdout).unwrap()
-    }
-
-    /// Asserts the whole of stderr, exit code 1, and that nothing is printed or left behind.
-    #[track_caller]
-    fn fails(&self, arguments: &str, message: &str) {
-        let before = self.files();
-        let Output { status, stdout, stderr } = self.run(arguments);
-        assert_eq!(String::from_utf8(stderr).unwrap(), format!("error: {message}\n"));
-        assert_eq!(String::from_utf8(stdout).unwrap(), "");
-        assert_eq!(status.code(), Some(1));
-        assert_eq!(self.files(), before);
-    }
-
-    fn files(&self) -> Vec<String> {
-        let entries = fs::read_dir(&self.0).unwrap();
-        let mut names: Vec<_> =
-            entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-        names.sort();
-        names
-    }
-}
-
-/// The first word of the value of a key in a summary.
-#[track_caller]
-fn value<'a>(summary: &'a str, key: &str) -> &'a str {
-    let mut lines = summary.lines().map(|line| line.split_whitespace());
-    let words = lines.find_map(|mut words| (words.next()? == key).then_some(words));
-    words.and_then(|mut words| words.next()).unwrap_or_else(|| panic!("no {key} in {summary}"))
-}
+use folder::{Folder, value};
 
 #[test]
 fn render_writes_both_files_and_a_summary() {

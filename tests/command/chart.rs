@@ -1,0 +1,178 @@
+//! `lobe chart`: what it writes, that it goes on where it was, and what it says about bad input.
+
+use std::fs;
+use std::time::Duration;
+
+use crate::folder::{Folder, value};
+
+/// A wall under the sky, for a chart of seven methods.
+const SKY: &str = r#"
+[camera]
+eye = [0, 1, -3]
+[film]
+resolution = [20, 10]
+[integrator]
+type = "path"
+max_depth = 2
+[material.clay]
+type = "matte"
+[light.sky]
+type = "sky"
+radiance = [1, 1, 1]
+[shape.wall]
+obj = "wall.obj"
+material = "clay"
+"#;
+
+const CHART: &str = "chart sky.toml --budgets 1,2,4 --seeds 3 -o c";
+
+fn folder(test: &str) -> Folder {
+    let folder = Folder::new(test);
+    folder.write("sky.toml", SKY);
+    folder
+}
+
+/// Columns of a table that do not depend on time, line by line.
+fn lasting(folder: &Folder) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(folder.0.join("c/curves.csv")).unwrap();
+    let line = |line: &str| {
+        let fields: Vec<&str> = line.rsplitn(9, ',').collect();
+        fields
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| ![6, 7].contains(i))
+            .map(|(_, f)| (*f).into())
+            .collect()
+    };
+    text.lines().map(line).collect()
+}
+
+#[test]
+fn chart_writes_curves_tables_and_a_page() {
+    let folder = folder("chart");
+    let summary = folder.prints(CHART);
+    // Sky and surfaces alone: `auto` is `bsdf`, and roulette has no say before the third reflection.
+    assert!(summary.contains("sobol, bsdf does here what sobol does"), "{summary}");
+    let names = ["independent", "stratified", "sobol", "blue-noise", "sobol, mis", "sobol, light"];
+    for name in names {
+        let line = format!("method     {name}: ");
+        assert_eq!(summary.matches(&line).count(), 1, "{name} in {summary}");
+    }
+    for file in ["error-by-time.svg", "error-by-samples.svg", "equal-time.svg"] {
+        let svg = fs::read_to_string(folder.0.join("c").join(file)).unwrap();
+        assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"), "{file}");
+    }
+    let page = fs::read_to_string(folder.0.join("c/index.html")).unwrap();
+    // Self-contained: nothing is fetched, and each method has its picture and its error.
+    assert!(!page.contains("src=\"h") && !page.contains("href="), "{page}");
+    assert_eq!(page.matches("data:image/png;base64,").count(), 2 + 2 * names.len());
+    assert_eq!(lasting(&folder).len(), 1 + 3 * names.len());
+}
+
+/// What is lost of a chart is made again and nothing else, whenever it was interrupted.
+#[test]
+fn chart_goes_on_where_it_was() {
+    let folder = folder("chart_goes_on");
+    folder.prints(CHART);
+    let whole = lasting(&folder);
+    let runs = folder.0.join("c/runs.csv");
+    let text = fs::read_to_string(&runs).unwrap();
+    // Within a line.
+    fs::write(&runs, &text[..text.len() - 250]).unwrap();
+    folder.prints(CHART);
+    assert_eq!(lasting(&folder), whole);
+    let again = fs::read_to_string(&runs).unwrap();
+    assert_eq!(again.lines().count(), text.lines().count());
+    let kept = text[..text.len() - 250].rfind('\n').unwrap();
+    assert_eq!(again[..kept], text[..kept], "times that were there are kept");
+
+    folder.prints("chart sky.toml --budgets 1,2,4 --seeds 3 -o c --fresh");
+    assert_eq!(lasting(&folder), whole);
+    // Killed at some moment of its first second.
+    for milliseconds in [20, 60, 150, 400] {
+        let words = CHART.split(' ').chain(["--fresh"]);
+        let mut child = folder.command(words).stdout(std::process::Stdio::null()).spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(milliseconds));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        folder.prints(CHART);
+        assert_eq!(lasting(&folder), whole, "killed after {milliseconds} ms");
+    }
+}
+
+/// The time decides on the samples, a list on the methods, and other programs' pictures are points.
+#[test]
+fn chart_takes_lists_and_pictures() {
+    let folder = folder("chart_takes");
+    folder.write(
+        "list.toml",
+        "[methods]\none = ['sampler.type=\"sobol\"', 'sampler.replicates=1']\n\
+         \"two, light\" = ['integrator.strategy=\"light\"']\n",
+    );
+    folder.prints("render sky.toml --seed 99 --spp 8 -o other.exr --quiet");
+    let chart = "chart sky.toml --methods list.toml --time 0.01 --seeds 2 -o c";
+    let summary = folder.prints(&format!("{chart} --add other=other.exr,0.5"));
+    assert!(summary.contains("samples    [1, 2, 4] per pixel, 2 seeds each"), "{summary}");
+    assert!(summary.contains("method     two, light: "), "{summary}");
+    assert_eq!(value(&summary, "method"), "one:");
+    let table = fs::read_to_string(folder.0.join("c/curves.csv")).unwrap();
+    assert!(table.lines().last().unwrap().starts_with("\"other\",,1,,0.5,,"), "{table}");
+    let svg = fs::read_to_string(folder.0.join("c/error-by-time.svg")).unwrap();
+    assert!(svg.contains(">other</text>"), "{svg}");
+}
+
+#[test]
+fn chart_says_what_is_wrong() {
+    let folder = folder("chart_wrong");
+    folder.prints("render s.toml -o small.exr --set film.resolution=[4,4] --quiet");
+    folder.prints(CHART);
+    folder.fails(
+        &format!("{CHART} --set film.resolution=[21,10]"),
+        "`c/plan.toml` holds a chart of another scene, or with other settings: choose another folder by -o, or \
+         begin anew by --fresh",
+    );
+    folder.fails(
+        &format!("{CHART} --add x=no.exr,1"),
+        "cannot read `no.exr`: No such file or directory (os error 2)",
+    );
+    folder.fails(
+        &format!("{CHART} --add x=small.exr,1"),
+        "`small.exr`: the images have 4 x 4 and 20 x 10 pixels: they have to be of one size",
+    );
+    folder.fails("chart no.toml", "no.toml: there is no such file");
+    let expected = "; expected a table [methods] with lines such as\n  \
+                    \"sobol, one set\" = ['sampler.type=\"sobol\"', 'sampler.replicates=1']";
+    for (list, message) in [
+        ("", format!("list.toml: there is nothing in it{expected}")),
+        ("[method]\na = []", format!("list.toml: unknown table `method`{expected}")),
+        ("[methods]\na = 1", format!("list.toml: `a` has no list{expected}")),
+        ("[methods]", format!("list.toml: there is no method in it{expected}")),
+        ("[methods]\na = [", "list.toml:2: unclosed array, expected `]`".into()),
+        (
+            "[methods]\na = ['film.resolution=[1,1]']",
+            format!(
+                "list.toml: `a` sets `film.resolution=[1,1]`, but methods differ in `sampler.` and `integrator.` \
+                 alone{expected}"
+            ),
+        ),
+        (
+            "[methods]\na = ['sampler.type=\"sobl\"']",
+            "list.toml: method `a`: --set sampler.type=\"sobl\": `sampler.type` is \"sobl\"".into(),
+        ),
+    ] {
+        folder.write("list.toml", list);
+        let output = folder.run("chart sky.toml --methods list.toml -o d");
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(said.starts_with(&format!("error: {message}")), "{list:?}: {said}");
+        assert!(!folder.0.join("d").exists(), "{list:?}");
+    }
+    folder.write("c/plan.toml", "budgets = 7");
+    folder.fails(CHART, "`c/plan.toml` is no plan of a chart: choose another folder by -o");
+    for usage in ["--budgets 0", "--seeds 1", "--time 0", "--add x", "--add x=a.exr,fast"] {
+        assert_eq!(
+            folder.run(&format!("chart sky.toml {usage}")).status.code(),
+            Some(2),
+            "{usage}"
+        );
+    }
+}
