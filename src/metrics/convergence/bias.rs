@@ -8,7 +8,9 @@ use super::{Pool, Reference};
 /// How far the mean of a method's pictures is from the reference, beyond what noise explains.
 ///
 /// In each pixel (mean - reference)² less both variances is the square of the bias, without bias of its own; the
-/// average over pixels is compared with its standard error, which follows from how it scatters from tile to tile.
+/// average over pixels is compared with its standard error, which follows from how it scatters from tile to tile. But
+/// rare bright samples that none of the pictures has would look like a bias: so the error is no less than it would be
+/// if the pictures varied as much as the reference does, sample for sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bias {
     /// The bias as a root of relMSE: √(MSE - variance), 0 where the difference is negative.
@@ -23,15 +25,16 @@ impl Bias {
     /// So many standard errors are no chance.
     pub const LIMIT: f64 = 5.0;
 
-    /// The bias of the method whose pictures the pool has: at least two of them.
-    pub fn new(pool: &Pool, reference: &Reference) -> Self {
+    /// The bias of the method whose pictures the pool has, at least two of them; together they have `part` times as many
+    /// samples as the reference.
+    pub fn new(pool: &Pool, reference: &Reference, part: f64) -> Self {
         let image = reference.image();
         let known = image.variance.iter().flatten();
         let wide = |pixel: &crate::Spectrum| DVec3::from(pixel.to_array().map(f64::from));
         let truth = image.pixels.iter().map(wide).zip(known.map(wide));
         let (columns, rows) = (image.size.x.div_ceil(TILE), image.size.y.div_ceil(TILE));
         let mut tiles = vec![(0.0, 0.0); (columns * rows) as usize];
-        let (mut difference, mut spread) = (0.0, DVec3::ZERO);
+        let (mut difference, mut spread, mut unseen) = (0.0, DVec3::ZERO, 0.0);
         for (place, ((mean, variance), (truth, own))) in (0_u32..).zip(pool.moments().zip(truth)) {
             let apart = mean - truth;
             let square = (apart * apart - variance - own) / weights(truth);
@@ -40,10 +43,17 @@ impl Bias {
             tile.0 += square.element_sum() / 3.0;
             tile.1 += 1.0;
             difference += apart.element_sum();
-            spread += variance + own;
+            let expected = variance.max(own / part);
+            spread += expected + own;
+            // The square of a normal variable varies by twice the square of its variance; bands go together.
+            let of_square =
+                (2.0_f64.sqrt() * (expected + own) / weights(truth)).element_sum() / 3.0;
+            unseen += of_square * of_square;
         }
         let bands = 3.0 * image.pixels.len() as f64;
-        let square = scatter(&tiles);
+        let (square, scattered) = scatter(&tiles);
+        let least = unseen.sqrt() / image.pixels.len() as f64;
+        let square = (square, scattered.max(least));
         // Pixels are independent of each other, the bands of one are not: their errors may add up.
         let error = spread.to_array().map(f64::sqrt).iter().sum::<f64>();
         let mean = (difference / bands, error / bands);

@@ -29,6 +29,8 @@ pub struct Limits {
     pub budgets: Vec<u32>,
     pub seconds: f64,
     pub seeds: u32,
+    /// Samples of the reference, if not the usual number.
+    pub reference: Option<u32>,
     pub fresh: bool,
 }
 
@@ -49,7 +51,7 @@ const CHECK_SEEDS: u64 = 2_000_000;
 impl<'a> Bench<'a> {
     /// Renders what is missing.
     pub fn measure(&mut self, limits: &Limits) -> Result<Measured, Box<dyn Error>> {
-        let (costs, print) = self.try_out(limits.seeds)?;
+        let (costs, print) = self.try_out()?;
         let [reference, check] = self.truths();
         let truth_costs = [cost(&reference)?, cost(&check)?];
         let plan = self.agree(limits, &costs, truth_costs, print)?;
@@ -58,7 +60,7 @@ impl<'a> Bench<'a> {
 
         let done_parts = [self.folder.count("reference"), self.folder.count("check")];
         let done = runs.iter().map(|run| self.cost_of(run, &costs)).sum::<f64>()
-            + f64::from(done_parts[0]) * truth_costs[0].of(plan.part_spp())
+            + f64::from(done_parts[0]) * truth_costs[0].of(plan.part_spp)
             + f64::from(done_parts[1]) * truth_costs[1].of(plan.most());
         let steps = Steps::new(plan.seconds(&costs, truth_costs), done, self.is_quiet);
         let all = plan.seeds as usize * plan.budgets.len() * self.methods.len();
@@ -84,14 +86,15 @@ impl<'a> Bench<'a> {
             "reference",
             &reference,
             Plan::PARTS,
-            plan.part_spp(),
+            plan.part_spp,
             REFERENCE_SEEDS,
             truth_costs[0],
         )?;
         let reference = Reference::new(&pool, size);
         let pool =
             truth("check", &check, Plan::CHECK_PARTS, plan.most(), CHECK_SEEDS, truth_costs[1])?;
-        let check = Bias::new(&pool, &reference);
+        let all = f64::from(Plan::PARTS * plan.part_spp);
+        let check = Bias::new(&pool, &reference, f64::from(Plan::CHECK_PARTS * plan.most()) / all);
 
         let runs = self.run_all(&plan, &reference, runs, &costs, &steps)?;
         steps.clear();
@@ -99,7 +102,8 @@ impl<'a> Bench<'a> {
         let curves = self.methods.iter().map(curve).collect();
         let bias = |number: usize| -> Result<Option<Bias>, Box<dyn Error>> {
             let pool = self.folder.pool(&self.mean_name(number))?;
-            Ok((pool.count() > 1).then(|| Bias::new(&pool, &reference)))
+            let part = f64::from(pool.count() * plan.most()) / all;
+            Ok((pool.count() > 1).then(|| Bias::new(&pool, &reference, part)))
         };
         let biases = (0..self.methods.len()).map(bias).collect::<Result<_, _>>()?;
         Ok(Measured { reference, curves, biases, check, plan })
@@ -107,7 +111,7 @@ impl<'a> Bench<'a> {
 
     /// One picture of each method: what it costs, and what it looks like. Methods that give the same bits as one before are
     /// the same and left out.
-    fn try_out(&mut self, seeds: u32) -> Result<(Vec<Cost>, u32), Box<dyn Error>> {
+    fn try_out(&mut self) -> Result<(Vec<Cost>, u32), Box<dyn Error>> {
         let (mut images, mut costs): (Vec<Image>, Vec<Cost>) = (Vec::new(), Vec::new());
         let mut print = crc32fast::Hasher::new();
         let mut kept: Vec<Method> = Vec::new();
@@ -127,7 +131,6 @@ impl<'a> Bench<'a> {
             kept.push(method);
         }
         self.methods = kept;
-        print.update(&seeds.to_le_bytes());
         Ok((costs, print.finalize()))
     }
 
@@ -156,10 +159,16 @@ impl<'a> Bench<'a> {
         truths: [Cost; 2],
         print: u32,
     ) -> Result<Plan, Box<dyn Error>> {
-        let Limits { budgets, seconds, seeds, fresh } = limits;
-        if let (Some(plan), false) = (self.folder.plan()?, *fresh) {
-            let is_same = plan.print == print && (budgets.is_empty() || plan.budgets == *budgets);
-            return if is_same {
+        let Limits { budgets, seconds, seeds, reference, fresh } = limits;
+        let with = |budgets| Plan::new(budgets, *seeds, *reference, print);
+        if !fresh && let Some(plan) = self.folder.plan()? {
+            // What was not asked for may be as it is there.
+            let budgets = if budgets.is_empty() { &plan.budgets } else { budgets };
+            let mut asked = with(budgets.clone());
+            if reference.is_none() {
+                asked.part_spp = plan.part_spp;
+            }
+            return if asked == plan {
                 Ok(plan)
             } else {
                 Err(format!(
@@ -171,8 +180,8 @@ impl<'a> Bench<'a> {
             };
         }
         let plan = match budgets.as_slice() {
-            [] => Plan::for_time(*seconds, *seeds, costs, truths, print),
-            budgets => Plan { budgets: budgets.to_vec(), seeds: *seeds, print },
+            [] => Plan::for_time(*seconds, costs, truths, with),
+            budgets => with(budgets.to_vec()),
         };
         self.folder.begin(&plan)?;
         Ok(plan)

@@ -65,6 +65,10 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = value_parser!(u32).range(2..=64))]
     seeds: u32,
 
+    /// Samples per pixel of the reference [default: 32 times the largest number that methods have]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(8..1 << 27))]
+    reference: Option<u32>,
+
     /// A picture by another program, EXR or PFM, and the seconds it took; may be repeated
     #[arg(long, value_name = "LABEL=IMAGE,SECONDS", value_parser = added)]
     add: Vec<Added>,
@@ -145,7 +149,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let mut budgets = arguments.budgets.clone();
     budgets.sort_unstable();
     budgets.dedup();
-    let limits = measure::Limits { budgets, seconds: arguments.time, seeds: *seeds, fresh: *fresh };
+    let limits = measure::Limits {
+        budgets,
+        seconds: arguments.time,
+        seeds: *seeds,
+        reference: arguments.reference,
+        fresh: *fresh,
+    };
     let measured = bench.measure(&limits)?;
     let mut others = Vec::new();
     for (Added { label, seconds, path }, image) in arguments.add.iter().zip(&images) {

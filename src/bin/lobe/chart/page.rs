@@ -58,7 +58,7 @@ pub fn html(
         bench.scene.accel().triangle_count(),
         threads(bench),
         plan.seeds,
-        Plan::PARTS * plan.part_spp(),
+        Plan::PARTS * plan.part_spp,
         study.reference.floor()
     );
     for remark in remarks {

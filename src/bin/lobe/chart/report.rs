@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use lobe::metrics::convergence::{Bias, Distrust, Other, Study, front};
+use lobe::metrics::convergence::{Bias, Other, Study, front};
 
 use super::measure::{Bench, Measured};
 use super::page;
@@ -72,19 +72,14 @@ pub fn write(
 fn remarks(bench: &Bench, study: &Study, check: &Bias) -> Vec<String> {
     let mut remarks = bench.notes.clone();
     let Study { reference, curves, biases, .. } = study;
-    if let Some(Distrust::Rare { .. }) = reference.distrust() {
-        remarks.extend(
-            reference
-                .distrust()
-                .map(|distrust| format!("{distrust}; render more of it by more --time")),
-        );
-    }
+    let more = "give it more samples by --reference and --fresh";
+    remarks.extend(reference.distrust().map(|distrust| format!("{distrust}; {more}")));
     let points = || curves.iter().flat_map(|curve| &curve.points);
     let hidden = points().filter(|point| point.error.is_none()).count();
     if hidden > 0 {
         remarks.push(format!(
-            "{hidden} of {} points are below the reference's own error and not claimed: the reference has not \
-             converged far enough for them",
+            "the reference has not converged far enough for {hidden} of {} points, which are below its own error and not \
+             claimed; {more}",
             points().count()
         ));
     }
