@@ -6,6 +6,8 @@ mod output;
 mod progress;
 mod render;
 mod scene;
+mod stability;
+mod stability_table;
 mod summary;
 
 use std::error::Error;
@@ -36,6 +38,7 @@ enum Command {
     Render(render::Arguments),
     Info(info::Arguments),
     Compare(compare::Arguments),
+    Stability(stability_table::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -43,6 +46,7 @@ fn main() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Stability(arguments) => stability_table::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

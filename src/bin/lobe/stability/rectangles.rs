@@ -1,0 +1,175 @@
+//! Spherical rectangles, from specks to nearly half of all directions.
+
+use lobe::glam::{DVec2, DVec3, Vec2, Vec3};
+use lobe::sampling::SphericalRectangle;
+
+use super::Sweep;
+use super::rng::Rng;
+use super::tally::{half_decades, measured, relative_error, trials, worse};
+use super::usual_rectangle::{UsualRectangle, UsualTriangle};
+
+/// Edges at right angles whose coordinates are whole numbers, and so exact in f32, with their lengths.
+const FRAMES: [([f32; 3], [f32; 3], f64); 4] = [
+    ([1.0, 2.0, 2.0], [2.0, 1.0, -2.0], 3.0),
+    ([2.0, 3.0, 6.0], [3.0, -6.0, 2.0], 7.0),
+    ([1.0, 4.0, 8.0], [4.0, 7.0, -4.0], 9.0),
+    ([4.0, 4.0, 7.0], [1.0, -8.0, 4.0], 9.0),
+];
+
+/// A rectangle and the eye that sees it.
+pub struct View {
+    pub eye: Vec3,
+    pub corner: Vec3,
+    pub edges: [Vec3; 2],
+}
+
+impl View {
+    /// The eye at a height of `distance` edges: above a point of the rectangle if that is below 1, else in any direction at a cosine
+    /// of at least 0.2.
+    fn draw(rng: &mut Rng, distance: f64) -> Self {
+        let (x, y, length) = FRAMES[(rng.bits() >> 62) as usize];
+        // Up to four times as long as wide.
+        let edges = [x, y].map(|edge| Vec3::from(edge) * (1 + (rng.bits() >> 62)) as f32);
+        let corner = (8.0 * rng.in_cube()).round().as_vec3();
+        let [ex, ey] = edges.map(Vec3::as_dvec3);
+        let normal = ex.cross(ey).normalize();
+        let to_eye = loop {
+            let v = rng.direction();
+            if v.dot(normal).abs() > 0.2 {
+                break if distance < 1.0 { normal * v.dot(normal).signum() } else { v };
+            }
+        };
+        let [u, v] = [(); 2].map(|()| 0.1 + 0.8 * rng.unit());
+        let eye = corner.as_dvec3() + u * ex + v * ey + distance * length * to_eye;
+        Self { eye: eye.as_vec3(), corner, edges }
+    }
+
+    /// The solid angle in f64 of the part of the rectangle up to `share` of its first edge.
+    ///
+    /// Van Oosterom and Strackee 1983, "The Solid Angle of a Plane Triangle": tan Ω/2 from a triple product, in which edges take the
+    /// place of differences of corners, so that no digits of small angles are lost.
+    pub fn solid_angle(&self, share: f64) -> f64 {
+        let [ex, ey] = self.edges.map(Vec3::as_dvec3);
+        let a = self.corner.as_dvec3() - self.eye.as_dvec3();
+        let (ex, b) = (share * ex, a + share * ex);
+        solid_angle([a, b, b + ey], [ex, ey]) + solid_angle([a, b + ey, a + ey], [ex, ey])
+    }
+}
+
+/// The solid angle of a triangle, half of the parallelogram with these edges.
+fn solid_angle([a, b, c]: [DVec3; 3], [ex, ey]: [DVec3; 2]) -> f64 {
+    let (la, lb, lc) = (a.length(), b.length(), c.length());
+    let above = a.dot(ex.cross(ey)).abs();
+    let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+    2.0 * above.atan2(below)
+}
+
+const PARAMETER: &str = "distance of the eye (shortest edges' units)";
+const ABOUT: &str = "Rectangles of many shapes and directions with exact edges, seen from a distance of 1e-5 edges, above a point of \
+                     them, which is nearly 2π, to 1e5 edges, from anywhere, which is some 1e-10 sr.";
+
+/// The solid angle.
+pub fn solid_angles(effort: f64) -> Sweep {
+    let parameters = half_decades(-5, 5);
+    let views = trials(20_000, effort, 300);
+    let named = [
+        ("Ureña et al., f32", false),
+        ("triangles by angle excess, f32", false),
+        ("SphericalRectangle (ours)", true),
+    ];
+    let methods = measured(&parameters, named, |seed, distance| {
+        let mut rng = Rng::new(seed as u64);
+        let mut worst = [0.0; 3];
+        for _ in 0..views {
+            let view = View::draw(&mut rng, distance);
+            let View { eye, corner, edges: [ex, ey] } = view;
+            let usual = UsualRectangle::new(eye, corner, ex, ey).s;
+            let far = corner + ex + ey;
+            let triangles = [[corner, corner + ex, far], [corner, far, corner + ey]]
+                .map(|corners| UsualTriangle::new(eye, corners).area);
+            let ours = SphericalRectangle::new(eye, corner, ex, ey);
+            let ours = ours.map_or(f32::NAN, |rectangle| rectangle.solid_angle());
+            let truth = view.solid_angle(1.0);
+            for (worst, found) in worst.iter_mut().zip([usual, triangles[0] + triangles[1], ours]) {
+                *worst = worse(*worst, relative_error(f64::from(found), truth));
+            }
+        }
+        worst
+    });
+    Sweep {
+        name: "rectangles-angle",
+        title: "Error of a rectangle's solid angle, by the eye's distance",
+        about: format!(
+            "{ABOUT} The largest error of {views} for each point; NaN counts as infinite. Truth is the formula of Van Oosterom and \
+             Strackee 1983 in f64, with edges in its triple product. Usual: Ureña, Fajardo and King 2013 as printed, and two \
+             triangles by Girard's angle excess, as before Arvo 1995, both in f32."
+        ),
+        parameter: PARAMETER,
+        log_parameter: true,
+        measure: "largest relative error of the solid angle",
+        methods,
+        fails_from: 1e-3,
+        bounds: vec![1e-6; parameters.len()],
+        parameters,
+    }
+}
+
+/// Where samples fall.
+pub fn samples(effort: f64) -> Sweep {
+    let parameters = half_decades(-5, 5);
+    let views = trials(20_000, effort, 300);
+    let named = [("Ureña et al., f32", false), ("SphericalRectangle (ours)", true)];
+    let methods = measured(&parameters, named, |seed, distance| {
+        let mut rng = Rng::new(seed as u64);
+        let mut worst = [0.0; 2];
+        for _ in 0..views {
+            let view = View::draw(&mut rng, distance);
+            let View { eye, corner, edges: [ex, ey] } = view;
+            let u = Vec2::new(rng.unit() as f32, rng.unit() as f32).min(Vec2::splat(0.999_999_9));
+            let usual = UsualRectangle::new(eye, corner, ex, ey).sample(u);
+            let ours = SphericalRectangle::new(eye, corner, ex, ey);
+            let ours = ours.map_or(Vec3::NAN, |rectangle| rectangle.sample(u));
+            for (worst, point) in worst.iter_mut().zip([usual, ours]) {
+                *worst = worse(*worst, misplaced(&view, point, u));
+            }
+        }
+        worst
+    });
+    Sweep {
+        name: "rectangles-samples",
+        title: "Error of samples on a rectangle, by the eye's distance",
+        about: format!(
+            "{ABOUT} A sample for u should have the share u.x of the solid angle to its left, and on its line the share u.y below it; the \
+             error is the largest difference of {views} samples for each point, where NaN counts as infinite. Truth is the \
+             formula of Van Oosterom and Strackee 1983 in f64, for the f32 point. Usual: Ureña, Fajardo and King 2013 as \
+             printed, in f32."
+        ),
+        parameter: PARAMETER,
+        log_parameter: true,
+        measure: "largest error of the share of the solid angle",
+        methods,
+        fails_from: 1e-2,
+        bounds: vec![1e-3; parameters.len()],
+        parameters,
+    }
+}
+
+/// How far a point is from where u should lead, in shares of the solid angle and of its line.
+fn misplaced(view: &View, point: Vec3, u: Vec2) -> f64 {
+    let [ex, ey] = view.edges.map(Vec3::as_dvec3);
+    let moved = point.as_dvec3() - view.corner.as_dvec3();
+    let share = moved.dot(ex) / ex.length_squared();
+    let left = view.solid_angle(share.clamp(0.0, 1.0)) / view.solid_angle(1.0);
+    // On the line through the point, the sine of the angle against the foot of the eye is uniform.
+    let foot = view.eye.as_dvec3() - view.corner.as_dvec3();
+    let on_line = foot - share * ex;
+    let along = on_line.dot(ey) / ey.length();
+    let depth2 = (on_line.length_squared() - along * along).max(0.0);
+    let sine = |y: f64| (y - along) / DVec2::new(y - along, depth2.sqrt()).length();
+    let y = moved.dot(ey) / ey.length();
+    let (h0, h1) = (sine(0.0), sine(ey.length()));
+    let below = (sine(y) - h0) / (h1 - h0);
+    // A point beyond the edges is as wrong as that.
+    let beyond = (share - share.clamp(0.0, 1.0)).abs();
+    worse(worse((left - f64::from(u.x)).abs(), (below - f64::from(u.y)).abs()), beyond)
+}
