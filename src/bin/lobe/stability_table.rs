@@ -35,7 +35,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
 fn print(sweep: &Sweep) {
     let Sweep { name, title, about, parameter, measure, fails_from, .. } = sweep;
     let scale = if sweep.log_parameter { "log" } else { "linear" };
-    println!("== {name}: {title}\n  {about}\n  {measure} by {parameter} ({scale}), fails from {fails_from}");
+    println!(
+        "== {name}: {title}\n  {about}\n  {measure} by {parameter} ({scale}), fails from {fails_from}"
+    );
     let names: Vec<_> = sweep.methods.iter().map(|m| m.name).collect();
     println!("  parameter,{},bound", names.join(","));
     for (i, parameter) in sweep.parameters.iter().enumerate() {

@@ -10,9 +10,13 @@ use super::tally::{measured, trials, worse};
 
 /// Normals from +z to -z.
 pub fn near_minus_z(effort: f64) -> Sweep {
-    let parameters: Vec<f64> = (0..28).map(|k| 2.0 * 10.0_f64.powf(-0.5 * f64::from(k))).collect();
+    let parameters: Vec<f64> = (-27..=0).map(|k| 2.0 * 10.0_f64.powf(0.5 * f64::from(k))).collect();
     let around = trials(20_000, effort, 200);
-    let named = [("Frisvad 2012", false), ("Hughes-Möller 1999", false), ("Frame::from_normal (ours)", true)];
+    let named = [
+        ("Frisvad 2012", false),
+        ("Hughes-Möller 1999", false),
+        ("Frame::from_normal (ours)", true),
+    ];
     let methods = measured(&parameters, named, |_, above| {
         let mut worst = [0.0; 3];
         for turn in 0..around {
@@ -69,11 +73,8 @@ fn frisvad(n: Vec3) -> [Vec3; 2] {
 
 /// Hughes and Möller 1999, "Building an Orthonormal Basis from a Unit Vector".
 fn hughes_moeller(n: Vec3) -> [Vec3; 2] {
-    let across = if n.x.abs() > n.z.abs() {
-        Vec3::new(-n.y, n.x, 0.0)
-    } else {
-        Vec3::new(0.0, -n.z, n.y)
-    };
+    let across =
+        if n.x.abs() > n.z.abs() { Vec3::new(-n.y, n.x, 0.0) } else { Vec3::new(0.0, -n.z, n.y) };
     let t = across / across.length();
     [t.cross(n), t]
 }

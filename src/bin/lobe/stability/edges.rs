@@ -136,12 +136,7 @@ fn leaks(place: &Place, rng: &mut Rng, rays: u32) -> [u32; 3] {
 
 /// A ray at an edge or vertex, and the t at which it is closest to the centre; `None` if it is not sure to meet the
 /// surface before that.
-fn aim(
-    place: &Place,
-    center: DVec3,
-    corners: &[[Vec3; 3]],
-    rng: &mut Rng,
-) -> Option<(Ray, f64)> {
+fn aim(place: &Place, center: DVec3, corners: &[[Vec3; 3]], rng: &mut Rng) -> Option<(Ray, f64)> {
     let Place { scale, distance, .. } = *place;
     let side = rng.direction();
     let o = (center + scale * distance * side).as_vec3();

@@ -7,8 +7,9 @@ use lobe::film::{Filter, FilterSampler};
 use lobe::geometry::float::ONE_MINUS_EPSILON;
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::sampling::{
-    BlueNoiseSampler, Discrete, IndependentSampler, SampleId, Sampler, SobolSampler, SphericalRectangle,
-    StratifiedSampler, concentric_disk, cosine_hemisphere, uniform_cone, uniform_triangle,
+    BlueNoiseSampler, Discrete, IndependentSampler, SampleId, Sampler, SobolSampler,
+    SphericalRectangle, StratifiedSampler, concentric_disk, cosine_hemisphere, uniform_cone,
+    uniform_triangle,
 };
 
 use super::tally::{half_decades, measured};
@@ -85,16 +86,24 @@ fn first_ones(most: u64) -> u64 {
     taken
 }
 
+/// k from 1 to 32: at the ends each one, between them each other one.
+fn exponents() -> impl Iterator<Item = f64> {
+    (1..=32).filter(|k| !(5..24).contains(k) || k % 2 == 0).map(f64::from)
+}
+
 /// Warps just below 1.
 pub fn near_one(_effort: f64) -> Sweep {
-    let parameters: Vec<f64> = (1..=32).map(f64::from).collect();
+    let parameters: Vec<f64> = exponents().collect();
     let usual = |k: f64| (1.0 - 2.0_f64.powf(-k)) as f32;
     // As the samplers cut it off.
     let methods = fail(&parameters, usual, |k| usual(k).min(ONE_MINUS_EPSILON));
     Sweep {
         name: "extremes-near-one",
         title: "Warps that fail just below 1",
-        about: about("1 - 2^-k", "which for k from 25 on f32 rounds to 1; ours stop at 1 - 2^-24, the largest that samplers give"),
+        about: about(
+            "1 - 2^-k",
+            "which for k from 25 on f32 rounds to 1; ours stop at 1 - 2^-24, the largest that samplers give",
+        ),
         parameter: "k, where u is 1 - 2^-k",
         bounds: vec![0.0; parameters.len()],
         ..warps(parameters, methods)
@@ -103,15 +112,17 @@ pub fn near_one(_effort: f64) -> Sweep {
 
 /// Warps just above 0.
 pub fn near_zero(_effort: f64) -> Sweep {
-    let parameters: Vec<f64> = (1..=33).map(f64::from).collect();
+    let parameters: Vec<f64> = exponents().chain([33.0]).collect();
     let usual = |k: f64| if k > 32.0 { 0.0 } else { 2.0_f64.powf(-k) as f32 };
     let ours = |k: f64| if k > 24.0 { 0.0 } else { 2.0_f64.powf(-k) as f32 };
     let methods = fail(&parameters, usual, ours);
     Sweep {
         name: "extremes-near-zero",
         title: "Warps that fail just above 0",
-        about: about("2^-k", "and 0 at k = 33; ours are 0 from k = 25 on, the next number that samplers give")
-            + " What ours has left is the hemisphere at 0, on the border of the square: the density is zero there.",
+        about: about(
+            "2^-k",
+            "and 0 at k = 33; ours are 0 from k = 25 on, the next number that samplers give",
+        ) + " What ours has left is the hemisphere at 0, on the border of the square, where the density is zero: numbers of 32 bits would avoid it down to 2^-32.",
         parameter: "k, where u is 2^-k; 33 stands for u = 0",
         bounds: parameters.iter().map(|&k| if k > 24.0 { 0.125 } else { 0.0 }).collect(),
         ..warps(parameters, methods)
@@ -236,7 +247,7 @@ const SUN: f32 = 0.004_65;
 /// Cells of a table.
 const CELLS: usize = 16;
 /// How many weights there are; the first and the last are zero.
-const WEIGHTS: usize = 1000;
+const WEIGHTS: usize = 5002;
 /// Corner and edges, seen from zero.
 const RECTANGLE: [Vec3; 3] = [Vec3::new(-0.5, -0.25, 1.0), Vec3::X, Vec3::Y];
 

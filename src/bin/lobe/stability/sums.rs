@@ -23,13 +23,10 @@ fn film(variance: Variance) -> Option<Film> {
 pub fn means(effort: f64) -> Sweep {
     let parameters = half_decades(1, 8);
     let most = (1e8 * effort).clamp(1e5, 1e8);
-    let mut methods: Vec<Method> = [
-        ("running sum in f32", false),
-        ("running mean in f32", false),
-        ("Film (ours)", true),
-    ]
-    .map(|(name, is_ours)| Method { name, is_ours, values: Vec::new() })
-    .into();
+    let mut methods: Vec<Method> =
+        [("running sum in f32", false), ("running mean in f32", false), ("Film (ours)", true)]
+            .map(|(name, is_ours)| Method { name, is_ours, values: Vec::new() })
+            .into();
     let mut rng = Rng::new(0);
     let (mut sum, mut mean, mut film) = (0.0_f32, 0.0_f32, film(Variance::None));
     let (mut taken, mut exact) = (0_u64, 0_u64);

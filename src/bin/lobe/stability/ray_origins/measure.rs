@@ -18,8 +18,8 @@
 
 use lobe::glam::{DVec3, Vec3};
 
-use super::method::Method;
 use super::super::rng::Rng;
+use super::method::Method;
 use super::scene::Patch;
 use super::triangle_test::TESTS;
 

@@ -1,12 +1,11 @@
 //! Ray origins: by how much a ray's start is moved off the surface that it leaves, and what goes wrong.
 
-mod measure;
-mod method;
+pub mod measure;
+pub mod method;
 mod scene;
 mod triangle_test;
 
-pub use measure::{Failure, Place, measure};
-pub use method::Method;
+use measure::{Failure, Place, measure};
 
 use super::Sweep;
 use super::tally::{half_decades, measured, trials};

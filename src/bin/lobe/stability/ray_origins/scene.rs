@@ -6,8 +6,8 @@ use lobe::glam::{DVec3, Vec3};
 use lobe::interaction::SurfaceInteraction;
 use lobe::shape::ShearedRay;
 
-use super::measure::Place;
 use super::super::rng::Rng;
+use super::measure::Place;
 use super::triangle_test::TriangleTest;
 
 /// Triangles thinner than this are not drawn: the sine between their edges.
