@@ -58,7 +58,7 @@ pub struct Method {
 type Measure = fn(f64) -> Sweep;
 
 /// The names of the sweeps, in order, and what measures them.
-const ALL: [(&str, Measure); 21] = [
+const ALL: [(&str, Measure); 22] = [
     ("ray-origins-scale", ray_origins::self_hits_by_scale),
     ("ray-origins-distance", ray_origins::self_hits_by_distance),
     ("ray-contacts-scale", ray_origins::contacts_by_scale),
@@ -70,6 +70,7 @@ const ALL: [(&str, Measure); 21] = [
     ("lights-size", lights::by_size),
     ("lights-grazing", lights::by_height),
     ("rectangles-angle", rectangles::solid_angles),
+    ("rectangles-lamp", rectangles::solid_angles_of_lamps),
     ("rectangles-samples", rectangles::samples),
     ("disks-stretch", disks::stretch),
     ("disks-centre", disks::centre),

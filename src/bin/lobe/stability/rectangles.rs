@@ -1,7 +1,9 @@
 //! Spherical rectangles, from specks to nearly half of all directions.
 
 use lobe::glam::{DVec2, DVec3, Vec2, Vec3};
+use lobe::light::{AreaLight, Light, LightHit};
 use lobe::sampling::SphericalRectangle;
+use lobe::{Spectrum, TriangleMesh};
 
 use super::Sweep;
 use super::rng::Rng;
@@ -70,19 +72,64 @@ const SAMPLES: [f64; 21] = [
     4.4e-7, 3.8e-7, 3.9e-7, 4.4e-7, 3.5e-7, 4.0e-7, 3.8e-7, 3.6e-7, 4.6e-7,
 ];
 
-const PARAMETER: &str = "distance of the eye (shortest edges' units)";
-const ABOUT: &str = "Rectangles of many shapes and directions with exact edges, seen from a distance of 1e-5 edges, above a point of \
-                     them, which is nearly 2π, to 1e5 edges, from anywhere, which is some 1e-10 sr.";
+const PARAMETER: &str = "distance of the eye (units of the rectangle, whose edges are 1 to 4)";
+const ABOUT: &str = "Rectangles of many shapes and directions with exact edges, seen from close above a point of them, under nearly 2π, \
+                     or farther than their unit from anywhere, down to 1e-10 sr.";
 
-/// The solid angle.
+/// The solid angle, as a rectangle by itself tells it.
 pub fn solid_angles(effort: f64) -> Sweep {
+    let ours = |View { eye, corner, edges: [ex, ey] }: &View| {
+        SphericalRectangle::new(*eye, *corner, *ex, *ey).map_or(f32::NAN, |one| one.solid_angle())
+    };
     let parameters = half_decades(-5, 5);
+    Sweep {
+        name: "rectangles-angle",
+        title: "Error of a rectangle's solid angle, by the eye's distance",
+        bounds: vec![1e-7; parameters.len()],
+        ..solid_angles_of("SphericalRectangle (ours)", ours, parameters, effort)
+    }
+}
+
+/// The solid angle that a lamp's densities stand for, as far as it draws by solid angle.
+pub fn solid_angles_of_lamps(effort: f64) -> Sweep {
+    let ours = |View { eye, corner, edges: [ex, ey] }: &View| {
+        let mesh = TriangleMesh::parallelogram(*corner, *ex, *ey);
+        let to_light = *corner + 0.5 * *ex + 0.5 * *ey - *eye;
+        let distance = to_light.length();
+        let n = mesh.geometric_normal(0);
+        let hit = LightHit { origin: *eye, wi: to_light / distance, distance, n };
+        let light = AreaLight::new(&mesh, Spectrum::WHITE, true);
+        light.map_or(f32::NAN, |light| 1.0 / light.pdf_li(&hit))
+    };
+    let mut parameters = half_decades(-5, 3);
+    parameters.pop();
+    let mut sweep = Sweep {
+        name: "rectangles-lamp",
+        title: "Error of the solid angle behind a lamp's density, by the eye's distance",
+        // f32 is used between; twice what it gave.
+        bounds: parameters
+            .iter()
+            .map(|&distance| match distance {
+                x if x < 0.05 || x > 20.0 => 2e-7,
+                x if x < 0.5 => 1e-6,
+                _ => 8e-6,
+            })
+            .collect(),
+        ..solid_angles_of("AreaLight (ours)", ours, parameters, effort)
+    };
+    sweep.about += " A lamp of the crate finds it in f32 from 0.05 sr on, and in f64 down to 1e-6 sr, where this ends.";
+    sweep
+}
+
+fn solid_angles_of(
+    name: &'static str,
+    ours: impl Fn(&View) -> f32 + Sync,
+    parameters: Vec<f64>,
+    effort: f64,
+) -> Sweep {
     let views = trials(20_000, effort, 300);
-    let named = [
-        ("Ureña et al., f32", false),
-        ("triangles by angle excess, f32", false),
-        ("SphericalRectangle (ours)", true),
-    ];
+    let named =
+        [("Ureña et al., f32", false), ("triangles by angle excess, f32", false), (name, true)];
     let methods = measured(&parameters, named, |seed, distance| {
         let mut rng = Rng::new(seed as u64);
         let mut worst = [0.0; 3];
@@ -93,29 +140,28 @@ pub fn solid_angles(effort: f64) -> Sweep {
             let far = corner + ex + ey;
             let triangles = [[corner, corner + ex, far], [corner, far, corner + ey]]
                 .map(|corners| UsualTriangle::new(eye, corners).area);
-            let ours = SphericalRectangle::new(eye, corner, ex, ey);
-            let ours = ours.map_or(f32::NAN, |rectangle| rectangle.solid_angle());
             let truth = view.solid_angle(1.0);
-            for (worst, found) in worst.iter_mut().zip([usual, triangles[0] + triangles[1], ours]) {
+            let found = [usual, triangles[0] + triangles[1], ours(&view)];
+            for (worst, found) in worst.iter_mut().zip(found) {
                 *worst = worse(*worst, relative_error(f64::from(found), truth));
             }
         }
         worst
     });
     Sweep {
-        name: "rectangles-angle",
-        title: "Error of a rectangle's solid angle, by the eye's distance",
+        name: "",
+        title: "",
         about: format!(
             "{ABOUT} The largest error of {views} for each point; NaN counts as infinite. Truth is the formula of Van Oosterom and \
              Strackee 1983 in f64, with edges in its triple product. Usual: Ureña, Fajardo and King 2013 as printed, and two \
-             triangles by Girard's angle excess, as before Arvo 1995, both in f32."
+             triangles by Girard's angle excess, both in f32."
         ),
         parameter: PARAMETER,
         log_parameter: true,
         measure: "largest relative error of the solid angle",
         methods,
         fails_from: 1e-3,
-        bounds: vec![1e-7; parameters.len()],
+        bounds: Vec::new(),
         parameters,
     }
 }
