@@ -8,8 +8,8 @@ mod ray_origins;
 
 use stability::Sweep;
 
-/// Every sweep, with a hundredth of the usual trials: all of what the page needs is there, ours keeps its bounds, and wins somewhere.
-/// Seen to fail with usual methods in the place of ours.
+/// Every sweep, with a hundredth of the usual trials: all of what the page needs is there, ours keeps its bounds,
+/// and wins somewhere. Seen to fail with usual methods in the place of ours.
 #[test]
 fn ours_keeps_its_bounds_and_wins_somewhere() {
     let mut begun = Vec::new();

@@ -32,11 +32,11 @@ pub fn near_minus_z(effort: f64) -> Sweep {
         name: "bases",
         title: "Frames that are not orthonormal, by how close the normal is to -z",
         about: format!(
-            "Tangents for {around} normals around the z axis, rounded to f32. The error is the largest of all dot products \
-             between the three axes and of what their lengths differ from 1, by f64 from the f32 axes. Usual: Frisvad 2012, \
-             \"Building an Orthonormal Basis from a 3D Unit Vector Without Normalization\", as printed, which gives up only \
-             below n.z = -0.9999999; and Hughes and Möller 1999, which normalises and does not fail either. Ours is that of \
-             Duff et al. 2017."
+            "Tangents for {around} normals around the z axis, rounded to f32. The error is the largest of all dot \
+             products between the three axes and of what their lengths differ from 1, by f64 from the f32 axes. \
+             Usual: Frisvad 2012, \"Building an Orthonormal Basis from a 3D Unit Vector Without Normalization\", as \
+             printed, which gives up only below n.z = -0.9999999; and Hughes and Möller 1999, which normalises and \
+             does not fail either. Ours is that of Duff et al. 2017."
         ),
         parameter: "1 + n.z",
         log_parameter: true,

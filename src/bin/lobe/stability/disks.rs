@@ -50,10 +50,11 @@ pub fn stretch(effort: f64) -> Sweep {
         name: "disks-stretch",
         title: "How long and thin cells of the square become on the disk, by radius",
         about: format!(
-            "A cell's stretch is its longest over its shortest extent, by the singular values of the map's derivative, from \
-             differences of f32 results over cells of 2^-8 of the radius; the largest of {around} cells at each radius. Thin \
-             cells undo what stratification has won. The square's diagonals, where the derivative jumps, are left out. The usual map \
-             is polar, r = √u, φ = 2πv; Shirley and Chiu 1997 without their case for the middle is as good as ours but there."
+            "A cell's stretch is its longest over its shortest extent, by the singular values of the map's \
+             derivative, from differences of f32 results over cells of 2^-8 of the radius; the largest of {around} \
+             cells at each radius. Thin cells undo what stratification has won. The square's diagonals, where the \
+             derivative jumps, are left out. The usual map is polar, r = √u, φ = 2πv; Shirley and Chiu 1997 without \
+             their case for the middle is as good as ours but there."
         ),
         parameter: "radius",
         log_parameter: true,
@@ -82,9 +83,9 @@ pub fn centre(_effort: f64) -> Sweep {
     Sweep {
         name: "disks-centre",
         title: "Error of the chance to meet a small disk around the middle, by its radius",
-        about: "Random numbers of 24 bits, all of them counted. The chance of points within a radius ρ should be ρ². The polar map \
-                r = √u, φ = 2πv has no points between 0 and a radius of 2^-12, and all that fall into this hole lie on one \
-                point. Truth is ρ² in f64."
+        about: "Random numbers of 24 bits, all of them counted. The chance of points within a radius ρ should be \
+                ρ². The polar map r = √u, φ = 2πv has no points between 0 and a radius of 2^-12, and all that fall \
+                into this hole lie on one point. Truth is ρ² in f64."
             .to_owned(),
         parameter: "radius of the small disk",
         log_parameter: true,
@@ -138,9 +139,9 @@ pub fn half_planes(effort: f64) -> Sweep {
         name: "disks-edge",
         title: "Error of a lens cut by an edge, by the number of samples",
         about: format!(
-            "The share of the disk on one side of a random line, by jittered samples on a square grid; root mean square error over \
-             up to {runs} lines, truth in closed form. Here is no place where only the usual map fails: the errors of both fall \
-             alike, n^(-3/4), and ours is smaller by a tenth to a fifth."
+            "The share of the disk on one side of a random line, by jittered samples on a square grid; root mean \
+             square error over up to {runs} lines, truth in closed form. Here is no place where only the usual map \
+             fails: the errors of both fall alike, n^(-3/4), and ours is smaller by a sixth to a quarter."
         ),
         parameter: "samples",
         log_parameter: true,

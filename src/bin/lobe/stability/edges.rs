@@ -50,8 +50,9 @@ pub fn by_distance(effort: f64) -> Sweep {
             .collect(),
         ..sweep(parameters, effort, |distance| Place { scale: 1.0, distance, offset: 0.0 })
     };
-    sweep.about += " From some 10,000 radii on ours loses hits, at last all: at such distances PBRT's bound on the error of t is \
-                    larger than t for triangles of this size, and takes hits for such that rounding has made up.";
+    sweep.about += "From 10,000 radii on ours loses hits, from 300,000 on all of them: PBRT's bound on the error of \
+                    t, which tells true hits from such that rounding has made up, grows with the square of the \
+                    distance over the size of a triangle, and becomes larger than t.";
     sweep
 }
 
@@ -91,11 +92,11 @@ fn sweep(parameters: Vec<f64>, effort: f64, place: impl Fn(f64) -> Place + Sync)
         name: "",
         title: "",
         about: format!(
-            "Rays from outside of a closed, bumpy mesh of {} triangles, aimed at vertices and points of shared edges. A \
-             ray fails if it hits nothing before it comes to the mesh's middle. Truth: only rays count that by f64, from \
-             the f32 numbers of the ray, go through a ball which the mesh surely encloses. {rays} rays for each point. \
-             The usual test is Möller and Trumbore's of 1997, over all triangles, without a tolerance on the determinant \
-             and with the printed one.",
+            "Rays from outside of a closed, bumpy mesh of {} triangles, aimed at vertices and points of shared \
+             edges. A ray fails if it hits nothing before it comes to the mesh's middle. Truth: only rays count \
+             that by f64, from the f32 numbers of the ray, go through a ball which the mesh surely encloses. {rays} \
+             rays for each point. The usual test is Möller and Trumbore's of 1997, over all triangles, without a \
+             tolerance on the determinant and with the printed one.",
             12 * SIDE * SIDE
         ),
         parameter: "",

@@ -1,9 +1,9 @@
 //! Where methods fail: usual ones from the literature, and what this crate does in their place, on the same axes.
 //!
 //! A [`Sweep`] is one such question, measured at 8 to 30 values of a parameter. The usual methods are written here, as
-//! their sources print them, in f32; ours are the crate's public functions, called as a user would. Truth is a closed form, or f64
-//! from the f32 numbers as they are. Random numbers are the measurement's own, so that the same effort gives the same
-//! figures.
+//! their sources print them, in f32; ours are the crate's public functions, called as a user would. Truth is a closed
+//! form, or f64 from the f32 numbers as they are. Random numbers are the measurement's own, so that the same effort
+//! gives the same figures.
 
 mod bases;
 mod disks;
@@ -24,7 +24,7 @@ pub struct Sweep {
     pub name: &'static str,
     /// What the chart is of, in a few words, such as "False self-hits, by the scene's scale".
     pub title: &'static str,
-    /// Two or three sentences: what was done, what counts as failure or error, what truth is, trials per point, and
+    /// A few sentences: what was done, what counts as failure or error, what truth is, trials per point, and
     /// the source of the usual method.
     pub about: String,
     /// The x axis with its unit, such as "scale of the scene (scene units)".
@@ -39,7 +39,8 @@ pub struct Sweep {
     pub methods: Vec<Method>,
     /// From which measure on a method is said to fail.
     pub fails_from: f64,
-    /// Ours must not exceed this at the parameter of the same place: the stored bounds. Infinite where nothing is promised.
+    /// Ours must not exceed this at the parameter of the same place: the stored bounds. Infinite where nothing is
+    /// promised.
     pub bounds: Vec<f64>,
 }
 
@@ -49,8 +50,8 @@ pub struct Method {
     pub name: &'static str,
     /// Whether it is this crate's.
     pub is_ours: bool,
-    /// One per parameter; NaN where it cannot be measured. A result of the method itself that is infinite or NaN counts as
-    /// a failure: an error of infinity, or a trial of the share that fails.
+    /// One per parameter; NaN where it cannot be measured. A result of the method itself that is infinite or NaN
+    /// counts as a failure: an error of infinity, or a trial of the share that fails.
     pub values: Vec<f64>,
 }
 
@@ -83,7 +84,8 @@ const ALL: [(&str, Measure); 22] = [
     ("extremes-near-zero", extremes::near_zero),
 ];
 
-/// All sweeps, with `effort` times the usual number of trials; `begins` is told the name of each one before it is measured.
+/// All sweeps, with `effort` times the usual number of trials; `begins` is told the name of each one before it is
+/// measured.
 pub fn all(effort: f64, begins: &mut dyn FnMut(&str)) -> Vec<Sweep> {
     let measured = ALL.iter().map(|(name, measure)| {
         begins(name);

@@ -26,8 +26,8 @@ pub struct View {
 }
 
 impl View {
-    /// The eye at a height of `distance` edges: above a point of the rectangle if that is below 1, else in any direction at a cosine
-    /// of at least 0.2.
+    /// The eye at a height of `distance` edges: above a point of the rectangle if that is below 1, else in any
+    /// direction at a cosine of at least 0.2.
     fn draw(rng: &mut Rng, distance: f64) -> Self {
         let (x, y, length) = FRAMES[(rng.bits() >> 62) as usize];
         // Up to four times as long as wide.
@@ -48,8 +48,8 @@ impl View {
 
     /// The solid angle in f64 of the part of the rectangle up to `share` of its first edge.
     ///
-    /// Van Oosterom and Strackee 1983, "The Solid Angle of a Plane Triangle": tan Ω/2 from a triple product, in which edges take the
-    /// place of differences of corners, so that no digits of small angles are lost.
+    /// Van Oosterom and Strackee 1983, "The Solid Angle of a Plane Triangle": tan Ω/2 from a triple product, in
+    /// which edges take the place of differences of corners, so that no digits of small angles are lost.
     pub fn solid_angle(&self, share: f64) -> f64 {
         let [ex, ey] = self.edges.map(Vec3::as_dvec3);
         let a = self.corner.as_dvec3() - self.eye.as_dvec3();
@@ -73,8 +73,8 @@ const SAMPLES: [f64; 21] = [
 ];
 
 const PARAMETER: &str = "distance of the eye (units of the rectangle, whose edges are 1 to 4)";
-const ABOUT: &str = "Rectangles of many shapes and directions with exact edges, seen from close above a point of them, under nearly 2π, \
-                     or farther than their unit from anywhere, down to 1e-10 sr.";
+const ABOUT: &str = "Rectangles of many shapes and directions with exact edges, seen from close above a point of \
+                     them, under nearly 2π, or farther than their unit from anywhere, down to 1e-10 sr.";
 
 /// The solid angle, as a rectangle by itself tells it.
 pub fn solid_angles(effort: f64) -> Sweep {
@@ -110,14 +110,15 @@ pub fn solid_angles_of_lamps(effort: f64) -> Sweep {
         bounds: parameters
             .iter()
             .map(|&distance| match distance {
-                x if x < 0.05 || x > 20.0 => 2e-7,
+                x if !(0.05..=20.0).contains(&x) => 2e-7,
                 x if x < 0.5 => 1e-6,
                 _ => 8e-6,
             })
             .collect(),
         ..solid_angles_of("AreaLight (ours)", ours, parameters, effort)
     };
-    sweep.about += " A lamp of the crate finds it in f32 from 0.05 sr on, and in f64 down to 1e-6 sr, where this ends.";
+    sweep.about += "A lamp of the crate finds it in f32 from 0.05 sr on, and in f64 down to 1e-6 sr, where this \
+                    ends.";
     sweep
 }
 
@@ -152,9 +153,9 @@ fn solid_angles_of(
         name: "",
         title: "",
         about: format!(
-            "{ABOUT} The largest error of {views} for each point; NaN counts as infinite. Truth is the formula of Van Oosterom and \
-             Strackee 1983 in f64, with edges in its triple product. Usual: Ureña, Fajardo and King 2013 as printed, and two \
-             triangles by Girard's angle excess, both in f32."
+            "{ABOUT} The largest error of {views} for each point; NaN counts as infinite. Truth is the formula of \
+             Van Oosterom and Strackee 1983 in f64, with edges in its triple product. Usual: Ureña, Fajardo and \
+             King 2013 as printed, and two triangles by Girard's angle excess, both in f32."
         ),
         parameter: PARAMETER,
         log_parameter: true,
@@ -191,10 +192,11 @@ pub fn samples(effort: f64) -> Sweep {
         name: "rectangles-samples",
         title: "Error of samples on a rectangle, by the eye's distance",
         about: format!(
-            "{ABOUT} A sample for u should have the share u.x of the solid angle to its left, and on its line the share u.y below it; the \
-             error is the largest difference of {views} samples for each point, where NaN counts as infinite. Truth is the \
-             formula of Van Oosterom and Strackee 1983 in f64, for the f32 point. Usual: Ureña, Fajardo and King 2013 as \
-             printed, in f32. What is left to ours close to the rectangle is the rounding of the point to f32."
+            "{ABOUT} A sample for u should have the share u.x of the solid angle to its left, and on its line the \
+             share u.y below it; the error is the largest difference of {views} samples for each point, where NaN \
+             counts as infinite. Truth is the formula of Van Oosterom and Strackee 1983 in f64, for the f32 point. \
+             Usual: Ureña, Fajardo and King 2013 as printed, in f32. What is left to ours close to the rectangle is \
+             the rounding of the point to f32."
         ),
         parameter: PARAMETER,
         log_parameter: true,

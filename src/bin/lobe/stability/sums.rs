@@ -62,9 +62,10 @@ pub fn means(effort: f64) -> Sweep {
     Sweep {
         name: "sums-mean",
         title: "Error of a pixel's mean, by the number of samples",
-        about: "Values around 0.1, spread by 1 % to both sides, such as a wall in even light gives; whole multiples of 2^-27, so that truth is their \
-                sum as integers. Usual: a sum in f32, which rounds like values the same way each time, and stands still in the end; and a mean in f32 that is moved by (x - mean) / n. Ours is \
-                a film of one pixel; what is left is the rounding of its mean to f32."
+        about: "Values around 0.1, spread by 1 % to both sides, such as a wall in even light gives; whole multiples \
+                of 2^-27, so that truth is their sum as integers. Usual: a sum in f32, which rounds like values the \
+                same way each time, and stands still in the end; and a mean in f32 that is moved by (x - mean) / n. \
+                Ours is a film of one pixel; what is left is the rounding of its mean to f32."
             .to_owned(),
         parameter: "samples",
         log_parameter: true,
@@ -96,10 +97,10 @@ pub fn variances(effort: f64) -> Sweep {
         name: "sums-variance",
         title: "Error of a pixel's variance, by how little its samples differ",
         about: format!(
-            "{n} samples around a mean of 1000, spread evenly over ±√3 deviations and rounded to f32. Truth is the variance of the \
-             rounded samples by sums of integers of 128 bits. Usual: the difference of the mean square and the squared mean, and \
-             Welford 1962 in f32. Ours is a film's variance of the mean, times n, after Youngs and Cramer 1971 in f64. The difference in \
-             f64 fails too, from 300,000 on."
+            "{n} samples around a mean of 1000, spread evenly over ±√3 deviations and rounded to f32. Truth is the \
+             variance of the rounded samples by sums of integers of 128 bits. Usual: the difference of the mean \
+             square and the squared mean, and Welford 1962 in f32. Ours is a film's variance of the mean, times n, \
+             after Youngs and Cramer 1971 in f64. The difference in f64 fails too, from 300,000 on."
         ),
         parameter: "mean over standard deviation",
         log_parameter: true,

@@ -18,8 +18,8 @@ pub fn half_decades(first: i32, last: i32) -> Vec<f64> {
     values
 }
 
-/// Calls `measure` with each parameter and its place, on all processors, and sorts what it gives by method. A method is a name
-/// and whether it is ours.
+/// Calls `measure` with each parameter and its place, on all processors, and sorts what it gives by method. A
+/// method is a name and whether it is ours.
 pub fn measured<const N: usize>(
     parameters: &[f64],
     named: [(&'static str, bool); N],

@@ -57,8 +57,8 @@ impl UsualRectangle {
         let fu = (au.cos() * self.b0 - self.b1) / au.sin();
         let cu = 1.0 / (fu * fu + self.b0 * self.b0).sqrt() * if fu > 0.0 { 1.0 } else { -1.0 };
         let cu = cu.clamp(-1.0, 1.0);
-        // 2. compute xu; max before min, since NaN must not end the program
-        let xu = (-(cu * z0) / (1.0 - cu * cu).sqrt()).max(x0).min(x1);
+        // 2. compute xu
+        let xu = clamp(-(cu * z0) / (1.0 - cu * cu).sqrt(), x0, x1);
         // 3. compute yv
         let d = (xu * xu + z0 * z0).sqrt();
         let (h0, h1) = (y0 / (d * d + y0 * y0).sqrt(), y1 / (d * d + y1 * y1).sqrt());
@@ -70,8 +70,19 @@ impl UsualRectangle {
     }
 }
 
-/// A spherical triangle with the solid angle from its angles' excess over π (Girard's theorem), and samples as Arvo 1995
-/// has them: "Stratified Sampling of Spherical Triangles".
+/// As in C: NaN stays NaN.
+fn clamp(x: f32, low: f32, high: f32) -> f32 {
+    if x < low {
+        low
+    } else if x > high {
+        high
+    } else {
+        x
+    }
+}
+
+/// A spherical triangle with the solid angle from its angles' excess over π (Girard's theorem), and samples as Arvo
+/// 1995 has them: "Stratified Sampling of Spherical Triangles".
 pub struct UsualTriangle {
     corners: [Vec3; 3],
     alpha: f32,

@@ -1,9 +1,9 @@
 //! Counting failures at one place.
 //!
-//! **Trials** ([`super::scene`]): a triangle of random shape, and the three that continue it beyond its edges, exactly in
-//! its plane. A ray hits one of the four, and another leaves the hit to a random side along `w`; half of the
-//! directions are laid towards the surface, down to a sine of 1e-6. The coordinates are within twice the scale of a
-//! centre at the given distance from the origin.
+//! **Trials** ([`super::scene`]): a triangle of random shape, and the three that continue it beyond its edges,
+//! exactly in its plane. A ray hits one of the four, and another leaves the hit to a random side along `w`; half of
+//! the directions are laid towards the surface, down to a sine of 1e-6. The coordinates are within twice the scale
+//! of a centre at the given distance from the origin.
 //!
 //! **Failures**, each against a truth in f64 from the f32 numbers as they are:
 //!
