@@ -21,6 +21,9 @@ fn ours_keeps_its_bounds_and_wins_somewhere() {
             assert!(!text.is_empty() && !text.contains("  "), "{name}: {text}");
         }
         assert!(about.ends_with('.') && sweep.fails_from > 0.0, "{name}");
+        let joined = |w: &[char]| w[0] == '.' && w[1].is_uppercase();
+        let letters: Vec<char> = about.chars().collect();
+        assert!(!letters.windows(2).any(joined), "{name}: {about}");
         let Sweep { ref parameters, ref methods, ref bounds, .. } = sweep;
         assert!((8..=30).contains(&parameters.len()) && parameters.is_sorted(), "{name}");
         assert!(!log_parameter || parameters[0] > 0.0, "{name}");

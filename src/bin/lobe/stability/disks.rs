@@ -1,6 +1,6 @@
 //! The unit square taken to the unit disk: polar coordinates against concentric squares.
 
-use std::f32::consts::{FRAC_PI_4, TAU};
+use std::f32::consts::TAU;
 
 use lobe::glam::{DVec2, Vec2};
 use lobe::sampling::concentric_disk;
@@ -15,14 +15,10 @@ pub fn stretch(effort: f64) -> Sweep {
         (0..=20).map(|k| 10.0_f64.powf(-3.0 + 0.15 * f64::from(k))).collect();
     parameters[20] = 0.995;
     let around = trials(4000, effort, 400);
-    let named = [
-        ("polar", false),
-        ("Shirley-Chiu, dividing by zero", false),
-        ("concentric_disk (ours)", true),
-    ];
+    let named = [("polar", false), ("concentric_disk (ours)", true)];
     let methods = measured(&parameters, named, |seed, radius| {
         let mut rng = Rng::new(seed as u64);
-        let mut worst = [1.0; 3];
+        let mut worst = [1.0; 2];
         for _ in 0..around {
             // Where each map takes to this radius.
             let ring = DVec2::new(radius * radius, rng.unit());
@@ -35,11 +31,7 @@ pub fn stretch(effort: f64) -> Sweep {
                 DVec2::new(along, sign)
             };
             let square = 0.5 * square + 0.5;
-            let all = [
-                cell_stretch(ring, polar),
-                cell_stretch(square, shirley_chiu),
-                cell_stretch(square, concentric_disk::sample),
-            ];
+            let all = [cell_stretch(ring, polar), cell_stretch(square, concentric_disk::sample)];
             for (worst, stretch) in worst.iter_mut().zip(all) {
                 *worst = worse(*worst, stretch);
             }
@@ -53,8 +45,7 @@ pub fn stretch(effort: f64) -> Sweep {
             "A cell's stretch is its longest over its shortest extent, by the singular values of the map's \
              derivative, from differences of f32 results over cells of 2^-8 of the radius; the largest of {around} \
              cells at each radius. Thin cells undo what stratification has won. The square's diagonals, where the \
-             derivative jumps, are left out. The usual map is polar, r = √u, φ = 2πv; Shirley and Chiu 1997 without \
-             their case for the middle is as good as ours but there."
+             derivative jumps, are left out. The usual map is polar, r = √u, φ = 2πv; ours is that of Shirley and Chiu 1997."
         ),
         parameter: "radius",
         log_parameter: true,
@@ -158,18 +149,6 @@ pub fn half_planes(effort: f64) -> Sweep {
 fn polar(u: Vec2) -> Vec2 {
     let (sin, cos) = (TAU * u.y).sin_cos();
     u.x.sqrt() * Vec2::new(cos, sin)
-}
-
-/// Shirley and Chiu's map without a case for the middle.
-fn shirley_chiu(u: Vec2) -> Vec2 {
-    let Vec2 { x: a, y: b } = 2.0 * u - 1.0;
-    let (r, phi) = if a.abs() > b.abs() {
-        (a, FRAC_PI_4 * (b / a))
-    } else {
-        (b, 2.0 * FRAC_PI_4 - FRAC_PI_4 * (a / b))
-    };
-    let (sin, cos) = phi.sin_cos();
-    r * Vec2::new(cos, sin)
 }
 
 /// The ratio of the singular values of a map's derivative, over a cell of 2⁻⁸ of the radius.

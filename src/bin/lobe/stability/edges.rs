@@ -50,7 +50,7 @@ pub fn by_distance(effort: f64) -> Sweep {
             .collect(),
         ..sweep(parameters, effort, |distance| Place { scale: 1.0, distance, offset: 0.0 })
     };
-    sweep.about += "From 10,000 radii on ours loses hits, from 300,000 on all of them: PBRT's bound on the error of \
+    sweep.about += " From 10,000 radii on ours loses hits, from 300,000 on all of them: PBRT's bound on the error of \
                     t, which tells true hits from such that rounding has made up, grows with the square of the \
                     distance over the size of a triangle, and becomes larger than t.";
     sweep

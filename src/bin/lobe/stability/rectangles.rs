@@ -117,7 +117,7 @@ pub fn solid_angles_of_lamps(effort: f64) -> Sweep {
             .collect(),
         ..solid_angles_of("AreaLight (ours)", ours, parameters, effort)
     };
-    sweep.about += "A lamp of the crate finds it in f32 from 0.05 sr on, and in f64 down to 1e-6 sr, where this \
+    sweep.about += " A lamp of the crate finds it in f32 from 0.05 sr on, and in f64 down to 1e-6 sr, where this \
                     ends.";
     sweep
 }

@@ -48,7 +48,7 @@ pub fn near_zero(_effort: f64) -> Sweep {
         about: about(
             "2^-k",
             "and 0 at k = 33; ours are 0 from k = 25 on, the next number that samplers give",
-        ) + "What ours has left is the hemisphere at 0, on the border of the square, where the density is zero: \
+        ) + " What ours has left is the hemisphere at 0, on the border of the square, where the density is zero: \
              numbers of 32 bits would avoid it down to 2^-32.",
         parameter: "k, where u is 2^-k; 33 stands for u = 0",
         bounds: parameters.iter().map(|&k| if k > 24.0 { 0.125 } else { 0.0 }).collect(),

@@ -19,7 +19,7 @@ pub fn self_hits_by_scale(effort: f64) -> Sweep {
     let mut sweep = by_scale(Failure::SelfHit, effort);
     sweep.name = "ray-origins-scale";
     sweep.title = "False self-hits, by the scene's scale";
-    sweep.about += "From a scale of 10,000 on a fixed epsilon hits its own surface with a third of all rays and \
+    sweep.about += " From a scale of 10,000 on a fixed epsilon hits its own surface with a third of all rays and \
                     more; with the crate's test it would with 4 to 8 in 100,000.";
     sweep.bounds.fill(0.0);
     sweep
@@ -48,7 +48,7 @@ pub fn contacts_by_distance(effort: f64) -> Sweep {
     let mut sweep = by_distance(Failure::LostContact, effort);
     sweep.name = "ray-contacts-distance";
     sweep.title = "Lost contacts, by the scene's distance from the origin";
-    sweep.about += "From 3000 scales on ours loses most of them, and the fixed epsilon fewer: the offset outgrows \
+    sweep.about += " From 3000 scales on ours loses most of them, and the fixed epsilon fewer: the offset outgrows \
                     the gap before floats cease to resolve it. Where they do, there is nothing to measure.";
     for (bound, &distance) in sweep.bounds.iter_mut().zip(&sweep.parameters) {
         *bound = if distance <= 1000.0 { CONTACTS } else { f64::INFINITY };
