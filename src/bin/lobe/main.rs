@@ -7,6 +7,7 @@ mod output;
 mod progress;
 mod render;
 mod scene;
+mod stability;
 mod summary;
 
 use std::error::Error;
@@ -22,6 +23,7 @@ Examples:
   lobe info scene.toml                                  triangles, bounds, tree, memory
   lobe compare a.exr reference.exr                      errors, FLIP, and whether noise explains them
   lobe chart scene.toml                                 what accuracy costs, by each method
+  lobe chart --stability                                where methods fail
 
 `lobe help render` and so on have more of them.";
 

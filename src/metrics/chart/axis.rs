@@ -23,6 +23,9 @@ pub enum Scale {
     Log,
 }
 
+/// Half of the lane for zero, as a part of what is above it.
+const LANE: f64 = 0.06;
+
 /// An axis that knows its ends.
 pub struct Span {
     pub low: f64,
@@ -60,9 +63,9 @@ impl Span {
         };
         let mut ticks: Vec<f64> =
             ticks.into_iter().filter(|tick| (low..=high).contains(tick)).collect();
-        let lane = has_zero.then(|| low - 0.07 * (high - low));
+        let lane = has_zero.then(|| low - LANE * (high - low));
         if let Some(lane) = lane {
-            low = lane - 0.04 * (high - low);
+            low = lane - LANE * (high - low);
             ticks.insert(0, lane);
         }
         Self { low, high, lane, scale: axis.scale, ticks }

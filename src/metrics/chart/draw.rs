@@ -133,8 +133,15 @@ impl Pen {
         }
         let front: Vec<_> = chart.front.iter().filter_map(|&(px, py)| at(px, py)).collect();
         self.path("front", &front);
-        for line in &chart.lines {
-            self.draw(line, &at);
+        // Lines that are zero together stand beside each other.
+        let lines = chart.lines.len() as f64;
+        for (number, line) in chart.lines.iter().enumerate() {
+            let aside = (number as f64 - 0.5 * (lines - 1.0)) * (22.0 / lines).min(7.0);
+            self.draw(line, &|px, py| {
+                let (column, row) = at(px, py)?;
+                let is_zero = y.lane.is_some() && py == 0.0;
+                Some((column, if is_zero { row + aside } else { row }))
+            });
         }
     }
 

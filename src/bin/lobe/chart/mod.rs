@@ -6,6 +6,7 @@ mod methods;
 mod page;
 mod plan;
 mod report;
+mod stability;
 mod steps;
 
 use std::error::Error;
@@ -13,7 +14,7 @@ use std::ffi::OsString;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use clap::{Args, value_parser};
+use clap::{ArgGroup, Args, value_parser};
 use lobe::RenderOptions;
 use lobe::metrics::convergence::{Method, Other};
 use lobe::metrics::{Errors, Image};
@@ -27,6 +28,7 @@ const EXAMPLES: &str = r#"Examples:
   lobe chart dragon-sky.toml                            five minutes, then dragon-sky-chart/index.html
   lobe chart dragon-sky.toml --time 60 --set film.resolution=[128,128]
   lobe chart scene.toml --methods list.toml             methods of your own, see below
+  lobe chart --stability                                where methods fail, in half a minute
   lobe chart scene.toml --add "Mitsuba, 64 spp=other.exr,5.6"
 
 A list of methods is a TOML file. Each has a name and what --set would take for it:
@@ -41,11 +43,21 @@ only drawn again."#;
 /// Charts error against time and samples for each way to render a scene: SVG, CSV and a page
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
+#[command(group(ArgGroup::new("what").required(true).args(["path", "stability"])))]
 pub struct Arguments {
     #[command(flatten)]
-    scene: SceneArguments,
+    scene: Option<SceneArguments>,
 
-    /// The folder to write to [default: NAME-chart for NAME.toml]
+    /// Charts where methods fail, in place of a scene: ray origins, edges, lights, sums and so on, the usual
+    /// method beside ours. Ends with exit code 1 if ours has become worse than a stored bound
+    #[arg(long)]
+    stability: bool,
+
+    /// With --stability: so many times the usual number of trials
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = seconds)]
+    effort: f64,
+
+    /// The folder to write to [default: NAME-chart for NAME.toml, or stability-chart]
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
 
@@ -112,7 +124,11 @@ fn added(text: &str) -> Result<Added, String> {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
-    let Arguments { scene: file, output, seeds, fresh, .. } = arguments;
+    let Arguments { scene, output, seeds, fresh, .. } = arguments;
+    let Some(file) = scene else {
+        let folder = output.as_deref().unwrap_or("stability-chart".as_ref());
+        return stability::run(folder, arguments.effort, arguments.quiet);
+    };
     let folder = output.clone().unwrap_or_else(|| {
         let mut name: OsString = file.path.file_stem().unwrap_or("scene".as_ref()).to_owned();
         name.push("-chart");

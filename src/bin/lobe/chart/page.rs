@@ -14,7 +14,8 @@ use lobe::metrics::{ErrorMap, Errors, Image, Viewing};
 use super::measure::Bench;
 use super::plan::Plan;
 
-const STYLE: &str = "\
+/// Rules of all pages.
+pub const STYLE: &str = "\
 :root{color-scheme:light dark}
 body{font:15px/1.5 system-ui,-apple-system,'Segoe UI',Roboto,Helvetica,Arial,sans-serif;max-width:900px;margin:0 auto;padding:12px;color:#222;background:#fff}
 h1{font-size:22px}h2{font-size:17px;margin-top:28px}

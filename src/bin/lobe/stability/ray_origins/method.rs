@@ -24,16 +24,6 @@ impl Method {
     pub const ALL: [Self; 4] =
         [Self::FixedEpsilon, Self::WaechterBinder, Self::ErrorBounds, Self::Unmoved];
 
-    /// The name in the table.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::FixedEpsilon => "fixed-epsilon",
-            Self::WaechterBinder => "waechter-binder",
-            Self::ErrorBounds => "error-bounds",
-            Self::Unmoved => "unmoved",
-        }
-    }
-
     /// The ray that leaves `si` along `w`.
     pub fn spawn(self, si: &SurfaceInteraction, w: Vec3) -> Ray {
         let n = if w.dot(si.n()) < 0.0 { -si.n() } else { si.n() };

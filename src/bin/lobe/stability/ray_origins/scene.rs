@@ -6,9 +6,9 @@ use lobe::glam::{DVec3, Vec3};
 use lobe::interaction::SurfaceInteraction;
 use lobe::shape::ShearedRay;
 
-use crate::measure::Place;
-use crate::rng::Rng;
-use crate::triangle_test::TriangleTest;
+use super::super::rng::Rng;
+use super::measure::Place;
+use super::triangle_test::TriangleTest;
 
 /// Triangles thinner than this are not drawn: the sine between their edges.
 const THINNEST: f64 = 1e-3;

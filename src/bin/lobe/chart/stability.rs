@@ -1,0 +1,123 @@
+//! `lobe chart --stability`: where methods fail, each question with its chart.
+
+use std::error::Error;
+use std::fmt::Write;
+use std::path::Path;
+
+use lobe::metrics::chart::{Axis, Chart, Line, Point, Scale, escape};
+
+use super::folder::Folder;
+use super::page::STYLE;
+use super::steps::Steps;
+use crate::stability::{ALL, Sweep, all};
+use crate::summary::Summary;
+
+/// Measures all sweeps, and writes their charts, a table of all numbers and a page.
+///
+/// # Errors
+/// When nothing can be written; and after all is, when ours exceeds a stored bound.
+pub fn run(folder: &Path, effort: f64, is_quiet: bool) -> Result<(), Box<dyn Error>> {
+    let folder = Folder::open(folder)?;
+    let steps = Steps::new(ALL.len() as f64, 0.0, is_quiet);
+    let mut begun = 0;
+    let sweeps = all(effort, &mut |name| {
+        steps.done(if begun > 0 { 1.0 } else { 0.0 });
+        steps.begin(name.into());
+        begun += 1;
+    });
+    steps.clear();
+    let mut csv = String::from("sweep,parameter,method,is_ours,value,bound\n");
+    let mut page = head();
+    let mut summary = Summary::default();
+    let mut broken = Vec::new();
+    for sweep in &sweeps {
+        let svg = chart(sweep).svg();
+        folder.write(&format!("{}.svg", sweep.name), svg.as_bytes())?;
+        add_rows(&mut csv, sweep);
+        let verdict = verdict(sweep);
+        let (title, about) = (escape(sweep.title), escape(&sweep.about));
+        let shown = escape(&verdict);
+        let _ = writeln!(page, "<h2>{title}</h2>\n<p>{about}</p>\n<p><b>{shown}</b></p>\n{svg}");
+        summary.add("sweep", format!("{}: {verdict}", sweep.name));
+        let each = sweep.broken().into_iter();
+        broken.extend(each.map(|(parameter, value, bound)| {
+            format!("{} at {parameter:e}: {value:.3e}, above {bound:.3e}", sweep.name)
+        }));
+    }
+    page.push_str("</html>\n");
+    folder.write("stability.csv", csv.as_bytes())?;
+    folder.write("index.html", page.as_bytes())?;
+    if !is_quiet {
+        summary.add("wrote", folder.join("index.html").display());
+        summary.print()?;
+    }
+    if broken.is_empty() {
+        return Ok(());
+    }
+    let list = broken.join("\n  ");
+    Err(format!("{} stored bounds of ours are exceeded:\n  {list}", broken.len()).into())
+}
+
+fn head() -> String {
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n\
+         <title>Where methods fail</title>\n<style>\n{STYLE}</style>\n<h1>Where methods fail</h1>\n"
+    )
+}
+
+/// Where a usual method fails and ours does not, in a sentence.
+fn verdict(sweep: &Sweep) -> String {
+    let won = sweep.won();
+    match (won.first(), won.last()) {
+        (Some(first), Some(last)) => format!(
+            "at {} of {} places, from {first:.3e} to {last:.3e}, a usual method fails and ours does not",
+            won.len(),
+            sweep.parameters.len()
+        ),
+        _ => "there is no place where a usual method fails and ours does not".into(),
+    }
+}
+
+fn chart(sweep: &Sweep) -> Chart {
+    // Ours always looks the same.
+    const OURS: usize = 2;
+    let mut usual = [1, 0, 3, 4, 5].into_iter().cycle();
+    let line = |method: &crate::stability::Method| Line {
+        name: method.name.into(),
+        style: if method.is_ours { OURS } else { usual.next().unwrap_or(0) },
+        is_loose: false,
+        points: sweep
+            .parameters
+            .iter()
+            .zip(&method.values)
+            .map(|(&x, &y)| Point::new(x, y))
+            .collect(),
+    };
+    Chart {
+        title: sweep.title.into(),
+        x: Axis {
+            title: sweep.parameter.into(),
+            scale: if sweep.log_parameter { Scale::Log } else { Scale::Linear },
+            ..Axis::default()
+        },
+        y: Axis { title: sweep.measure.into(), scale: Scale::Log, ..Axis::default() },
+        lines: sweep.methods.iter().map(line).collect(),
+        floor: Some((sweep.fails_from, "said to fail above".into())),
+        ..Chart::default()
+    }
+}
+
+fn add_rows(csv: &mut String, sweep: &Sweep) {
+    for method in &sweep.methods {
+        for (place, (parameter, value)) in sweep.parameters.iter().zip(&method.values).enumerate() {
+            let bound = match sweep.bounds[place] {
+                bound if method.is_ours && bound.is_finite() => format!("{bound:e}"),
+                _ => String::new(),
+            };
+            let (name, ours) = (method.name, method.is_ours);
+            let _ =
+                writeln!(csv, "{},{parameter:e},\"{name}\",{ours},{value:e},{bound}", sweep.name);
+        }
+    }
+}
