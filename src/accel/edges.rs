@@ -1,7 +1,8 @@
 //! The steps of the triangle test in all lanes, as [`crate::shape::ShearedRay`] takes them for one triangle.
 
-use super::lanes::Vector;
+use super::lanes::{Lanes, Vector};
 use crate::geometry::float::gamma;
+use crate::shape::FAR;
 
 /// Twice the signed area of the triangle (origin, p, q) seen along z.
 #[inline(always)]
@@ -11,7 +12,7 @@ pub fn edge<L: Vector>(px: L, py: L, qx: L, qy: L) -> L {
 
 /// The bound on the error of the depth, as for one triangle.
 #[inline(always)]
-pub fn least_depth<L: Vector>([a, b, c]: [[L; 3]; 3], e: [L; 3], determinant: L) -> L {
+pub fn least_depth<L: Lanes>([a, b, c]: [[L; 3]; 3], e: [L; 3], determinant: L) -> L {
     let max_x = largest(a[0], b[0], c[0]);
     let max_y = largest(a[1], b[1], c[1]);
     let max_z = largest(a[2], b[2], c[2]);
@@ -23,7 +24,11 @@ pub fn least_depth<L: Vector>([a, b, c]: [[L; 3]; 3], e: [L; 3], determinant: L)
     let delta_e = L::splat(2.0).mul(products);
     let max_e = largest(e[0], e[1], e[2]);
     let sum = gamma3.mul(max_e).mul(max_z).add(delta_e.mul(max_z)).add(delta_z.mul(max_e));
-    L::splat(3.0).mul(sum).div(determinant.abs())
+    let low = a[2].min(b[2].min(c[2]));
+    let high = a[2].max(b[2].max(c[2]));
+    let nearest = low.max(L::splat(0.0).sub(high));
+    let is_far = L::splat(FAR).mul(high.sub(low)).add(delta_z).lt(nearest);
+    L::splat(3.0).mul(sum).div(determinant.abs()).or(is_far, L::splat(0.0))
 }
 
 /// The largest absolute value of three.

@@ -8,4 +8,5 @@ mod triangle;
 pub use check::MeshError;
 pub use mesh::TriangleMesh;
 pub use obj::{ObjAttribute, ObjError, ObjMesh, ObjProblem, ObjReport, parse_obj, read_obj};
+pub(crate) use triangle::FAR;
 pub use triangle::{ShearedRay, TriangleHit, triangle_normal};

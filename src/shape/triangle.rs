@@ -149,12 +149,23 @@ fn edges_f64(x: Vec3A, y: Vec3A) -> Vec3A {
     Vec3A::new(edge(1, 2), edge(2, 0), edge(0, 1))
 }
 
+/// A triangle that is so many times farther away than it is deep surely lies ahead, or behind.
+///
+/// The bound on the depth grows with the square of the distance: at 10⁵ sizes of a triangle it would reject all hits, and
+/// nearer those on triangles that are seen edge-on. But where all corners lie ahead, so does the hit. What the bound is
+/// there for, besides, are the triangles that continue the one that a ray leaves: these are near.
+pub(crate) const FAR: f32 = 8.0;
+
 /// The bound on the error of the depth: a hit at or below it may lie behind the origin
-/// (PBRT 3rd edition, section 3.9.6, where z is scaled to be t).
+/// (PBRT 3rd edition, section 3.9.6, where z is scaled to be t). Zero for triangles that are [`FAR`].
 #[inline]
 fn least_depth([x, y, z]: [Vec3A; 3], e: Vec3A, determinant: f32) -> f32 {
     let [max_x, max_y, max_z] = [x, y, z].map(|v| v.abs().max_element());
     let delta_z = gamma(3) * max_z;
+    let (low, high) = (z.min_element(), z.max_element());
+    if FAR * (high - low) + delta_z < low.max(-high) {
+        return 0.0;
+    }
     let delta_x = gamma(5) * (max_x + max_z);
     let delta_y = gamma(5) * (max_y + max_z);
     let delta_e = 2.0 * (gamma(2) * max_x * max_y + delta_y * max_x + delta_x * max_y);

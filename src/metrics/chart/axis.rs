@@ -63,7 +63,7 @@ impl Span {
         };
         let mut ticks: Vec<f64> =
             ticks.into_iter().filter(|tick| (low..=high).contains(tick)).collect();
-        let lane = has_zero.then(|| low - LANE * (high - low));
+        let lane = has_zero.then_some(low - LANE * (high - low));
         if let Some(lane) = lane {
             low = lane - LANE * (high - low);
             ticks.insert(0, lane);
