@@ -108,8 +108,7 @@ fn no_flat_mesh_hits_itself() {
         for trial in 0..20_000 {
             let mut rng = Rng::new(830 + plane as u64, trial);
             let triangle = rng.below(mesh.indices.len());
-            let si =
-                SurfaceInteraction::on_triangle(&mesh, triangle, rng.barycentric().into(), Vec3::Y);
+            let si = SurfaceInteraction::on_triangle(&mesh, triangle, rng.barycentric(), Vec3::Y);
             let sine = 10_f64.powf(-6.0 * f64::from(rng.f32()));
             let side = if rng.below(2) == 0 { n } else { -n };
             let along = n.cross(rng.direction().as_dvec3()).normalize();
