@@ -176,3 +176,24 @@ fn chart_says_what_is_wrong() {
         );
     }
 }
+
+/// All questions have a chart, and ours keeps its bounds. Seen to fail with a bound of zero for the sums.
+#[test]
+fn stability_has_a_chart_for_each_question() {
+    let folder = Folder::new("chart_stability");
+    let summary = folder.prints("chart --stability --effort 0.01 -o s");
+    let table = fs::read_to_string(folder.0.join("s/stability.csv")).unwrap();
+    let page = fs::read_to_string(folder.0.join("s/index.html")).unwrap();
+    let names: Vec<&str> = summary
+        .lines()
+        .filter_map(|line| line.strip_prefix("sweep  ")?.split(':').next())
+        .collect();
+    assert!(names.len() >= 20, "{summary}");
+    for name in &names {
+        assert!(folder.0.join(format!("s/{name}.svg")).exists(), "{name}");
+        assert!(table.contains(&format!("\n{name},")), "{name}");
+    }
+    assert_eq!(page.matches("<svg").count(), names.len());
+    assert_eq!(folder.run("chart --stability sky.toml").status.code(), Some(2));
+    assert_eq!(folder.run("chart").status.code(), Some(2));
+}
