@@ -1,6 +1,6 @@
 //! Error against time and samples: what to measure of methods, and what to make of it.
 //!
-//! The steps, which [`lobe chart`](https://docs.rs/lobe) takes one after the other:
+//! The steps, which the command `lobe chart` takes one after the other:
 //!
 //! 1. A [`Reference`] from independent parts, which tell its own error.
 //! 2. For each [`Method`], number of samples and seed a [`Run`]: time and errors against the reference.
