@@ -1,4 +1,5 @@
 //! Errors between images: by hand, by other programs' figures, and refused where they would mean nothing.
+//! Each was seen to fail: by a constant of FLIP, infinite variances counted, encodings not compared, a scale from the largest pixel.
 
 use lobe::Spectrum;
 use lobe::glam::UVec2;

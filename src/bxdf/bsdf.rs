@@ -19,8 +19,8 @@ pub const MAX_LOBES: usize = 8;
 /// - world directions go in, shading coordinates reach the lobes;
 /// - the shading normal makes the coordinates, but the **geometric** normal decides whether light is
 ///   reflected or transmitted, so that none leaks through a surface whose shading normal leans over
-///   (PBRT 3rd edition, section 9.1); directions for which the two normals disagree are black, because
-///   no lobe draws them, and with light sampling alone they would count;
+///   (PBRT 3rd edition, section 9.1); directions for which the two normals disagree are black (but for
+///   delta lobes): above the surface and below the shading plane no lobe draws any, and light sampling alone would count them;
 /// - no lobe is asked about a `wo` that lies exactly along the surface;
 /// - nothing leaves it that is not finite and non-negative. What a lobe gave instead is counted in
 ///   [`rejected`](Bsdf::rejected).

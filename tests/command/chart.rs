@@ -119,6 +119,18 @@ fn chart_takes_lists_and_pictures() {
     assert!(table.lines().last().unwrap().starts_with("\"other\",,1,,0.5,,"), "{table}");
     let svg = fs::read_to_string(folder.0.join("c/error-by-time.svg")).unwrap();
     assert!(svg.contains(">other</text>"), "{svg}");
+    // Methods that only more samples tell apart are two, and one budget alone is enough for a chart.
+    folder.write(
+        "list.toml",
+        "[methods]\na = ['sampler.type=\"sobol\"', 'sampler.replicates=4']\n\
+         b = ['sampler.type=\"sobol\"', 'sampler.replicates=8']\n",
+    );
+    let summary =
+        folder.prints("chart sky.toml --methods list.toml --budgets 8 --seeds 2 -o e --threads 1");
+    assert!(summary.contains("method     b: ") && !summary.contains("does here"), "{summary}");
+    let other =
+        folder.run("chart sky.toml --methods list.toml --budgets 8 --seeds 2 -o e --threads 2");
+    assert_eq!(other.status.code(), Some(1), "times of another number of threads");
 }
 
 #[test]
@@ -136,7 +148,8 @@ fn chart_says_what_is_wrong() {
         "cannot read `no.exr`: No such file or directory (os error 2)",
     );
     folder.fails(
-        &format!("{CHART} --add x=small.exr,1"),
+        // Before anything is rendered: there is no such folder yet.
+        "chart sky.toml -o new --add x=small.exr,1",
         "`small.exr`: the images have 4 x 4 and 20 x 10 pixels: they have to be of one size",
     );
     folder.fails("chart no.toml", "no.toml: there is no such file");
@@ -158,6 +171,16 @@ fn chart_says_what_is_wrong() {
         (
             "[methods]\na = ['sampler.type=\"sobl\"']",
             "list.toml: method `a`: --set sampler.type=\"sobl\": `sampler.type` is \"sobl\"".into(),
+        ),
+        (
+            "[methods]\na = ['sampler.spp=4']",
+            format!(
+                "list.toml: `a` sets `sampler.spp=4`, which --budgets and --seeds decide on{expected}"
+            ),
+        ),
+        (
+            "[methods]\n\"a\\nb\" = []",
+            format!("list.toml: \"a\\nb\" is no name of one line and up to 80 letters{expected}"),
         ),
     ] {
         folder.write("list.toml", list);

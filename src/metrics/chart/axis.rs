@@ -95,6 +95,7 @@ impl Span {
                 let (exponent, is_whole) = (place.round(), (place - place.round()).abs() < 1e-9);
                 match exponent {
                     -3.0..=4.0 => plain(10_f64.powf(place)),
+                    5.0..=7.0 if !is_whole => plain(10_f64.powf(place).round()),
                     _ if is_whole => format!("10{}", superscript(exponent as i32)),
                     _ => format!("{:.0e}", 10_f64.powf(place)),
                 }

@@ -80,5 +80,7 @@ fn scatter(tiles: &[(f64, f64)]) -> (f64, f64) {
     let weight: f64 = tiles.iter().map(|(_, weight)| weight).sum();
     let mean = tiles.iter().map(|(sum, _)| sum).sum::<f64>() / weight;
     let square = |&(sum, weight): &(f64, f64)| (sum - weight * mean).powi(2);
-    (mean, tiles.iter().map(square).sum::<f64>().sqrt() / weight)
+    // Of a single tile nothing is known: infinity.
+    let few = tiles.len() as f64 / (tiles.len() as f64 - 1.0);
+    (mean, (few * tiles.iter().map(square).sum::<f64>()).sqrt() / weight)
 }

@@ -10,7 +10,6 @@ use super::Pool;
 pub struct Reference {
     image: Image,
     floor: f64,
-    spread: f64,
     distrust: Option<Distrust>,
 }
 
@@ -48,8 +47,7 @@ impl Reference {
         let place = worst.unwrap_or(0) as u32;
         let worst = UVec2::new(place % size.x, place / size.x);
         let distrust = (share > RARE).then_some(Distrust::Rare { share, worst });
-        let spread = pool.moments().map(|(_, variance)| variance.element_sum()).sum::<f64>();
-        Self { image, floor, spread: spread.sqrt() / (3.0 * squares.len() as f64), distrust }
+        Self { image, floor, distrust }
     }
 
     /// The picture, with the variance of each pixel.
@@ -60,11 +58,6 @@ impl Reference {
     /// Its own error, as the root of relMSE: below it nothing can be said of others.
     pub fn floor(&self) -> f64 {
         self.floor
-    }
-
-    /// The standard error of its mean over all bands of all pixels, in radiance.
-    pub fn error_of_mean(&self) -> f64 {
-        self.spread
     }
 
     /// Why not to trust it, if there is a reason.

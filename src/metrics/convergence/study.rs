@@ -75,9 +75,6 @@ impl Study {
 
     /// The error of each method over the least one after the same time.
     pub fn error_at_equal_time(&self) -> Chart {
-        let mut times: Vec<f64> =
-            self.curves.iter().flat_map(Curve::claimed).map(|(point, _)| point.time()).collect();
-        times.sort_unstable_by(f64::total_cmp);
         let least = |time: f64| {
             let errors = self.curves.iter().filter_map(|curve| curve.error_at(time));
             errors.fold(f64::INFINITY, f64::min)
@@ -176,9 +173,10 @@ impl Study {
     ) -> impl Iterator<Item = Line> {
         self.curves.iter().zip(&self.biases).enumerate().map(move |(style, (curve, bias))| {
             let point = |p: &CurvePoint| match p.error {
-                Some([q1, median, q3]) => {
-                    Point { range: Some((q1, q3)), ..Point::new(x(p), median) }
-                }
+                Some([q1, median, q3]) => Point {
+                    range: Some((q1.max(self.reference.floor()), q3)),
+                    ..Point::new(x(p), median)
+                },
                 None => Point { is_faint: true, ..Point::new(x(p), self.reference.floor()) },
             };
             let note = match (bias, slope(curve)) {

@@ -121,7 +121,7 @@ impl ErrorMap {
 
 /// The bar's margins, and the least width that its labels have room in.
 const MARGIN: u32 = 6;
-const BAR_WIDTH: u32 = 160;
+const BAR_WIDTH: u32 = 184;
 const BAR_HEIGHT: u32 = MARGIN + 12 + 4 + HEIGHT + MARGIN;
 
 /// A value in two digits.

@@ -49,9 +49,12 @@ impl Folder {
     /// Begins anew: forgets what was measured here.
     pub fn begin(&self, plan: &Plan) -> Result<(), Box<dyn Error>> {
         // The plan goes first and comes last: without it there is nothing to go on with.
-        let _ = fs::remove_file(self.join("plan.toml"));
-        let _ = fs::remove_dir_all(self.join("means"));
         let means = self.join("means");
+        let removed = [(fs::remove_file(self.join("plan.toml"))), fs::remove_dir_all(&means)];
+        let is_missing = |error: &std::io::Error| error.kind() == std::io::ErrorKind::NotFound;
+        if let Some(error) = removed.into_iter().filter_map(Result::err).find(|e| !is_missing(e)) {
+            return Err(format!("cannot empty `{}`: {error}", self.path.display()).into());
+        }
         fs::create_dir_all(&means)
             .map_err(|error| format!("cannot make the folder `{}`: {error}", means.display()))?;
         self.write("runs.csv", format!("{}\n", Run::HEADER).as_bytes())?;

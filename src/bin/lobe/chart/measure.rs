@@ -16,6 +16,8 @@ use super::steps::Steps;
 pub struct Bench<'a> {
     pub scene: &'a Scene,
     pub methods: Vec<Method<'a>>,
+    /// Of each method.
+    pub settings: Vec<(SamplerSettings, IntegratorSettings)>,
     /// What the reader has to know.
     pub notes: Vec<String>,
     pub options: RenderOptions<'a>,
@@ -93,8 +95,12 @@ impl<'a> Bench<'a> {
         let reference = Reference::new(&pool, size);
         let pool =
             truth("check", &check, Plan::CHECK_PARTS, plan.most(), CHECK_SEEDS, truth_costs[1])?;
-        let all = f64::from(Plan::PARTS * plan.part_spp);
-        let check = Bias::new(&pool, &reference, f64::from(Plan::CHECK_PARTS * plan.most()) / all);
+        let all = f64::from(Plan::PARTS) * f64::from(plan.part_spp);
+        let check = Bias::new(
+            &pool,
+            &reference,
+            f64::from(Plan::CHECK_PARTS) * f64::from(plan.most()) / all,
+        );
 
         let runs = self.run_all(&plan, &reference, runs, &costs, &steps)?;
         steps.clear();
@@ -102,32 +108,43 @@ impl<'a> Bench<'a> {
         let curves = self.methods.iter().map(curve).collect();
         let bias = |number: usize| -> Result<Option<Bias>, Box<dyn Error>> {
             let pool = self.folder.pool(&self.mean_name(number))?;
-            let part = f64::from(pool.count() * plan.most()) / all;
+            let part = f64::from(pool.count()) * f64::from(plan.most()) / all;
             Ok((pool.count() > 1).then(|| Bias::new(&pool, &reference, part)))
         };
         let biases = (0..self.methods.len()).map(bias).collect::<Result<_, _>>()?;
         Ok(Measured { reference, curves, biases, check, plan })
     }
 
-    /// One picture of each method: what it costs, and what it looks like. Methods that give the same bits as one before are
-    /// the same and left out.
+    /// One picture of each method: what it costs, and what it looks like. Methods that give the same bits as one before, by the
+    /// same sampler, are the same and left out.
     fn try_out(&mut self) -> Result<(Vec<Cost>, u32), Box<dyn Error>> {
-        let (mut images, mut costs): (Vec<Image>, Vec<Cost>) = (Vec::new(), Vec::new());
+        let (mut images, mut costs): (Vec<(SamplerSettings, Image)>, Vec<Cost>) =
+            (Vec::new(), Vec::new());
         let mut print = crc32fast::Hasher::new();
         let mut kept: Vec<Method> = Vec::new();
-        for method in std::mem::take(&mut self.methods) {
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let threads = self.options.threads.map_or(threads, usize::from);
+        print.update(format!("{} {threads}", env!("CARGO_PKG_VERSION")).as_bytes());
+        let settings = std::mem::take(&mut self.settings);
+        for (method, (sampler, integrator)) in
+            std::mem::take(&mut self.methods).into_iter().zip(settings)
+        {
             let (image, _) = method.render(4, self.scene.sampler().seed)?;
-            if let Some(same) = images.iter().position(|known| *known == image) {
+            if let Some(same) =
+                images.iter().position(|known| known.0 == sampler && known.1 == image)
+            {
                 let note = format!("{} does here what {} does", method.name(), kept[same].name());
                 self.notes.push(note);
                 continue;
             }
-            print.update(method.name().as_bytes());
+            // What a picture of few samples does not show is in the settings.
+            print.update(format!("{} {sampler:?} {integrator:?}", method.name()).as_bytes());
             for band in image.pixels.iter().flat_map(|pixel| pixel.to_array()) {
                 print.update(&band.to_bits().to_le_bytes());
             }
             costs.push(cost(&method)?);
-            images.push(image);
+            images.push((sampler, image));
+            self.settings.push((sampler, integrator));
             kept.push(method);
         }
         self.methods = kept;

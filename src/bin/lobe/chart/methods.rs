@@ -102,6 +102,17 @@ pub fn read(path: &Path, scene: &SceneArguments) -> Result<Vec<Named>, Box<dyn E
             );
             return Err(wrong(&what).into());
         }
+        if name.chars().any(char::is_control) || name.len() > 80 {
+            return Err(
+                wrong(&format!("{name:?} is no name of one line and up to 80 letters")).into()
+            );
+        }
+        let is_planned =
+            |set: &&String| ["sampler.spp", "sampler.seed"].iter().any(|p| set.starts_with(p));
+        if let Some(other) = own.iter().find(is_planned) {
+            let what = format!("`{name}` sets `{other}`, which --budgets and --seeds decide on");
+            return Err(wrong(&what).into());
+        }
         let mut overrides = scene.overrides();
         overrides.extend(own.iter().map(String::as_str));
         let (sampler, integrator) = read_settings(&scene.path, &overrides)

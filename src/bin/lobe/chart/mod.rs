@@ -15,10 +15,10 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, value_parser};
-use lobe::RenderOptions;
 use lobe::metrics::convergence::{Method, Other};
-use lobe::metrics::{Errors, Image};
+use lobe::metrics::{Encoding, Errors, Image};
 use lobe::scene::read_settings;
+use lobe::{RenderOptions, Spectrum};
 
 use crate::scene::SceneArguments;
 use folder::Folder;
@@ -28,7 +28,7 @@ const EXAMPLES: &str = r#"Examples:
   lobe chart dragon-sky.toml                            five minutes, then dragon-sky-chart/index.html
   lobe chart dragon-sky.toml --time 60 --set film.resolution=[128,128]
   lobe chart scene.toml --methods list.toml             methods of your own, see below
-  lobe chart --stability                                where methods fail, in half a minute
+  lobe chart --stability                                where methods fail, in about 20 s
   lobe chart scene.toml --add "Mitsuba, 64 spp=other.exr,5.6"
 
 A list of methods is a TOML file. Each has a name and what --set would take for it:
@@ -37,8 +37,8 @@ A list of methods is a TOML file. Each has a name and what --set would take for 
   "light alone" = ['sampler.type="sobol"', 'integrator.strategy="light"']
 
 Errors are roots of relMSE, mean of (a - b)² / (b² + 0.01), against a reference by other seeds, whose own
-error is taken off and drawn as a floor. A chart that was interrupted goes on where it was; a finished one is
-only drawn again."#;
+error is taken off and drawn as a floor. A chart that was interrupted goes on where it was, by the plan
+that it had; a finished one is only drawn again, after a short trial of each method. --fresh begins anew."#;
 
 /// Charts error against time and samples for each way to render a scene: SVG, CSV and a page
 #[derive(Args)]
@@ -145,6 +145,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let images: Vec<Image> =
         arguments.add.iter().map(|added| Image::read(&added.path)).collect::<Result<_, _>>()?;
     let scene = file.load()?.scene;
+    let size = scene.film().window().size();
+    for (Added { path, .. }, image) in arguments.add.iter().zip(&images) {
+        let dark = vec![Spectrum::BLACK; size.x as usize * size.y as usize];
+        let like = Image { size, pixels: dark, variance: None, encoding: Encoding::Linear };
+        Errors::between(image, &like).map_err(|error| format!("`{}`: {error}", path.display()))?;
+    }
     let folder = Folder::open(&folder)?;
 
     let options = RenderOptions {
@@ -157,6 +163,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let mut bench = Bench {
         scene: &scene,
         methods: named.iter().map(method).collect(),
+        settings: named.iter().map(|(_, sampler, integrator)| (*sampler, *integrator)).collect(),
         notes: Vec::new(),
         options,
         folder,

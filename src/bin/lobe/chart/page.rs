@@ -59,7 +59,7 @@ pub fn html(
         bench.scene.accel().triangle_count(),
         threads(bench),
         plan.seeds,
-        Plan::PARTS * plan.part_spp,
+        f64::from(Plan::PARTS) * f64::from(plan.part_spp),
         study.reference.floor()
     );
     for remark in remarks {
@@ -106,7 +106,7 @@ fn pictures(page: &mut String, bench: &Bench, study: &Study) -> Result<(), Box<d
         page,
         "<h2>The reference</h2>\n<img class=\"whole\" alt=\"The reference\" src=\"{}\">\n\
          <h2>About {time:.2} s of each</h2>\n<p>{} × {} pixels from column {} and row {}, where the methods are worst, and \
-         their error: blue is too dark, red too bright, and the full colour is {limit:.2} or more. FLIP is that of the whole picture.</p>\n\
+         their error: blue is too dark, red too bright, and the full colour is {limit:.1e} or more. FLIP is that of the whole picture.</p>\n\
          <div class=\"grid\">",
         data(reference.size, &display.codes(&reference.pixels))?,
         window.size.x,
@@ -169,7 +169,10 @@ fn worst(maps: &[ErrorMap], size: UVec2) -> Crop {
         let row = |map: &ErrorMap, y: u32| {
             let start = ((at.y + y) * size.x + at.x) as usize;
             let values = &map.values[start..start + part.x as usize];
-            values.iter().map(|&value| f64::from(value.min(map.limit).powi(2))).sum::<f64>()
+            values
+                .iter()
+                .map(|&value| f64::from(value.clamp(-map.limit, map.limit).powi(2)))
+                .sum::<f64>()
         };
         maps.iter().map(|map| (0..part.y).map(|y| row(map, y)).sum::<f64>()).sum::<f64>()
     };
@@ -193,8 +196,12 @@ fn common_time(curves: &[Curve]) -> Option<f64> {
 /// How many samples a method takes in so long.
 fn samples_in(curve: &Curve, time: f64) -> u32 {
     let (Some(first), Some(last)) = (curve.points.first(), curve.points.last()) else { return 1 };
-    let more = f64::from(last.spp - first.spp).max(1.0);
-    let each = ((last.time() - first.time()) / more).max(1e-9);
+    let more = f64::from(last.spp - first.spp);
+    let each = (last.time() - first.time()) / more;
+    // From one point alone nothing follows, nor from two that took as long.
+    if more == 0.0 || each <= 0.0 {
+        return first.spp;
+    }
     (f64::from(first.spp) + (time - first.time()) / each).round().max(1.0) as u32
 }
 

@@ -91,11 +91,12 @@ impl Plan {
         let budgets = value("budgets")?.strip_prefix('[')?.strip_suffix(']')?;
         let budgets: Option<Vec<u32>> =
             budgets.split(',').map(|spp| spp.trim().parse().ok()).collect();
-        Some(Self {
+        let plan = Self {
             budgets: budgets?,
             seeds: value("seeds")?.parse().ok()?,
             part_spp: value("part_spp")?.parse().ok()?,
             print: value("print")?.parse().ok()?,
-        })
+        };
+        plan.budgets.is_sorted_by(|a, b| a < b).then_some(plan)
     }
 }

@@ -42,6 +42,12 @@ impl Steps {
     }
 }
 
+impl Drop for Steps {
+    fn drop(&mut self) {
+        self.clear();
+    }
+}
+
 fn thousandths(seconds: f64) -> u64 {
     (1000.0 * seconds).round() as u64
 }
