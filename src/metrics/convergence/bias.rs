@@ -54,7 +54,7 @@ impl Bias {
         let (square, scattered) = scatter(&tiles);
         let least = unseen.sqrt() / image.pixels.len() as f64;
         let square = (square, scattered.max(least));
-        // Pixels are independent of each other, the bands of one are not: their errors may add up.
+        // Pixels are taken to be independent, the bands of one are not: their errors may add up.
         let error = spread.to_array().map(f64::sqrt).iter().sum::<f64>();
         let mean = (difference / bands, error / bands);
         Self { error: square.0.max(0.0).sqrt(), square, mean }
@@ -80,7 +80,7 @@ fn scatter(tiles: &[(f64, f64)]) -> (f64, f64) {
     let weight: f64 = tiles.iter().map(|(_, weight)| weight).sum();
     let mean = tiles.iter().map(|(sum, _)| sum).sum::<f64>() / weight;
     let square = |&(sum, weight): &(f64, f64)| (sum - weight * mean).powi(2);
-    // Of a single tile nothing is known: infinity.
+    // Of a single tile nothing is known: NaN, to which the caller's least is preferred.
     let few = tiles.len() as f64 / (tiles.len() as f64 - 1.0);
     (mean, (few * tiles.iter().map(square).sum::<f64>()).sqrt() / weight)
 }
