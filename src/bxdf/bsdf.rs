@@ -6,9 +6,9 @@ use arrayvec::ArrayVec;
 use glam::{Vec2, Vec3};
 
 use super::{BxDF, BxdfFlags, BxdfSample, LambertianReflection, Lobe};
-use crate::Spectrum;
 use crate::geometry::Frame;
 use crate::geometry::float::ONE_MINUS_EPSILON;
+use crate::spectrum::Spectrum;
 
 /// The most lobes that one [`Bsdf`] holds (PBRT's `MaxBxDFs`).
 pub const MAX_LOBES: usize = 8;

@@ -5,7 +5,7 @@ use std::f32::consts::FRAC_1_PI;
 use glam::{Vec2, Vec3};
 
 use super::{BxDF, BxdfFlags};
-use crate::Spectrum;
+use crate::spectrum::Spectrum;
 
 /// Reflects the same radiance in all directions.
 ///

@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use super::{BxDF, BxdfFlags, BxdfSample, LambertianReflection, OrenNayar};
-use crate::Spectrum;
+use crate::spectrum::Spectrum;
 
 /// A lobe in place: one of this crate's, or a reference to anyone's.
 ///

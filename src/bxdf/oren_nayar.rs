@@ -5,8 +5,8 @@ use std::f32::consts::FRAC_1_PI;
 use glam::{Vec2, Vec3};
 
 use super::{BxDF, BxdfFlags};
-use crate::Spectrum;
 use crate::geometry::trig::{abs_cos_theta, sin_theta, sin2_theta};
+use crate::spectrum::Spectrum;
 
 /// A surface of V-shaped grooves, each a perfect diffuser, whose slopes have the standard deviation
 /// sigma: brighter than Lambert towards the light, flatter over a rounded body.

@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use super::{BxDF, BxdfFlags, BxdfSample};
-use crate::Spectrum;
+use crate::spectrum::Spectrum;
 
 /// A lobe whose values are multiplied by a spectrum. Directions and densities are those of the lobe.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,9 +2,9 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
-use crate::Spectrum;
 use crate::geometry::trig::{abs_cos_theta, same_hemisphere};
 use crate::sampling::{cosine_hemisphere, uniform_hemisphere};
+use crate::spectrum::Spectrum;
 
 bitflags::bitflags! {
     /// What a lobe does with light: which side it sends it to, and how it spreads it.

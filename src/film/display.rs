@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use crate::Spectrum;
+use crate::spectrum::Spectrum;
 
 /// The curve that takes linear values to a screen's codes, 0 to 255.
 ///

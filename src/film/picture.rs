@@ -2,7 +2,7 @@
 
 use glam::{UVec2, Vec3};
 
-use crate::Spectrum;
+use crate::spectrum::Spectrum;
 
 /// A rectangle of pixels: `min` belongs to it, `max` does not. y grows downwards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

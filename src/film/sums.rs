@@ -4,7 +4,7 @@ use glam::{UVec2, Vec3};
 
 use super::spread::Spread;
 use super::{Layers, Picture, Variance, Window};
-use crate::Spectrum;
+use crate::spectrum::Spectrum;
 
 /// Why there is no film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

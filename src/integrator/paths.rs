@@ -2,13 +2,13 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::Spectrum;
 use crate::accel::Hit;
 use crate::bxdf::{Bsdf, BxdfFlags};
 use crate::geometry::Ray;
 use crate::interaction::SurfaceInteraction;
 use crate::sampling::SampleId;
 use crate::scene::Scene;
+use crate::spectrum::Spectrum;
 
 /// What is known of a path beside its ray.
 #[derive(Clone, Copy)]

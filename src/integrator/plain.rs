@@ -3,13 +3,13 @@
 use glam::{BVec4A, Vec2, Vec3, Vec4};
 
 use super::paths::Path;
-use crate::Spectrum;
 use crate::accel::Hit;
 use crate::bxdf::BxDF;
 use crate::geometry::Ray;
 use crate::geometry::four::{BoundedPointx4, Framex4, Vec3x4, four, three, triangle_normals};
 use crate::sampling::cosine_hemisphere;
 use crate::scene::Scene;
+use crate::spectrum::Spectrum;
 
 /// How many hits are worked on together: what is known of them stays in the first-level cache.
 pub const BLOCK: usize = 64;

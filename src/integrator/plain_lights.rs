@@ -4,12 +4,12 @@ use glam::{BVec4A, Vec2, Vec3, Vec4};
 
 use super::plain::PlainHits;
 use super::transport::Transport;
-use crate::Spectrum;
 use crate::geometry::Ray;
 use crate::geometry::float::ONE_MINUS_EPSILON;
 use crate::geometry::four::{Vec3x4, four, rays_x4};
 use crate::light::LightSamplesX4;
 use crate::scene::Scene;
+use crate::spectrum::Spectrum;
 
 /// Light samples, and what else is known of them.
 pub struct LightSamples {

@@ -8,7 +8,6 @@ use super::plain::{BLOCK, Fetched, PlainHits, push_x4};
 use super::plain_lights::LightSamples;
 use super::transport::{Draw, Transport, power_heuristic};
 use super::wave::{ShadowRays, Wave, dimension};
-use crate::Spectrum;
 use crate::accel::Hit;
 use crate::bxdf::{Arena, BxdfFlags, TransportMode};
 use crate::geometry::Ray;
@@ -16,6 +15,7 @@ use crate::geometry::four::{four, rays_x4};
 use crate::light::{KnownLight, LightSample};
 use crate::sampling::Sampler;
 use crate::scene::Scene;
+use crate::spectrum::Spectrum;
 
 /// One such stage.
 pub struct Scatter<'a> {

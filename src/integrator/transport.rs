@@ -9,10 +9,10 @@ use glam::Vec3;
 
 use super::paths::{Path, Paths};
 use super::wave::{Wave, dimension};
-use crate::Spectrum;
 use crate::light::LightHit;
 use crate::sampling::{Discrete, SampleId, Sampler};
 use crate::scene::{LightStrategy, Scene};
+use crate::spectrum::Spectrum;
 
 /// Which lights are sampled at a hit.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -2,13 +2,13 @@
 
 use super::paths::{Path, Paths};
 use super::plain::push_x4;
-use crate::Spectrum;
 use crate::accel::Hit;
 use crate::bxdf::Arena;
 use crate::film::Filter;
 use crate::geometry::Ray;
 use crate::sampling::{SampleId, Sampler};
 use crate::scene::Scene;
+use crate::spectrum::Spectrum;
 
 /// Which dimension of a sample is used for what.
 pub mod dimension {

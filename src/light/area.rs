@@ -6,11 +6,11 @@ use glam::{Vec2, Vec3};
 
 use super::rectangle::{Rectangle, RectangleLight};
 use super::{BoundingSphere, Light, LightHit, LightSample};
-use crate::Spectrum;
 use crate::geometry::float::gamma;
 use crate::geometry::{BoundedPoint, unit};
 use crate::sampling::{Discrete, uniform_triangle};
 use crate::shape::{TriangleMesh, triangle_normal};
+use crate::spectrum::Spectrum;
 
 /// A mesh whose surface radiates alike in all directions of its outer side, or of both sides (PBRT 3rd
 /// edition, sections 12.5 and 14.2.2).

@@ -5,8 +5,8 @@ use std::f32::consts::PI;
 use glam::{Vec2, Vec3};
 
 use super::{BoundingSphere, Light, LightSample};
-use crate::Spectrum;
 use crate::geometry::unit;
+use crate::spectrum::Spectrum;
 
 /// A light from infinitely far away whose rays are parallel, like the sun's (PBRT 3rd edition,
 /// section 12.4).

@@ -6,8 +6,8 @@ use glam::{BVec4A, Vec4};
 
 use super::rectangle::RectangleLight;
 use super::{AreaLight, Light, PointLight, SkyLight};
-use crate::Spectrum;
 use crate::geometry::four::Vec3x4;
+use crate::spectrum::Spectrum;
 
 /// A light of a kind that can be sampled for four points at once: what [`Light::sample_li`] gives for each of four points, to the bit.
 #[derive(Clone, Copy)]

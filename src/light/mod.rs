@@ -15,7 +15,7 @@ pub use sky::SkyLight;
 
 use glam::{Vec2, Vec3};
 
-use crate::Spectrum;
+use crate::spectrum::Spectrum;
 
 /// Light that may arrive at a point, from one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]

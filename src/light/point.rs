@@ -3,8 +3,8 @@
 use glam::{BVec4A, Vec2, Vec3, Vec4};
 
 use super::{BoundingSphere, Light, LightSample, LightSamplesX4};
-use crate::Spectrum;
 use crate::geometry::four::{Vec3x4, four};
+use crate::spectrum::Spectrum;
 
 /// A light without extent that shines alike in all directions (PBRT 3rd edition, section 12.3).
 #[derive(Clone, Copy, Debug, PartialEq)]

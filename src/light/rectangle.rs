@@ -3,11 +3,11 @@
 use glam::{BVec4A, DVec2, DVec3, Vec2, Vec3, Vec4};
 
 use super::LightSamplesX4;
-use crate::Spectrum;
 use crate::geometry::BoundedPoint;
 use crate::geometry::float::gamma;
 use crate::geometry::four::{BoundedPointx4, Vec3x4};
 use crate::sampling::{LEAST_SOLID_ANGLE, Seen, SeenX4};
+use crate::spectrum::Spectrum;
 
 /// By how much of its shorter edge a corner may be out of place.
 const MOST_SKEW: f64 = 1e-4;

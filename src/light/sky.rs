@@ -5,9 +5,9 @@ use std::f32::consts::PI;
 use glam::{BVec4A, Vec2, Vec3, Vec4};
 
 use super::{BoundingSphere, Light, LightHit, LightSample, LightSamplesX4};
-use crate::Spectrum;
 use crate::geometry::four::Vec3x4;
 use crate::sampling::uniform_sphere;
+use crate::spectrum::Spectrum;
 
 /// The same radiance from every direction: an overcast sky all around, or a furnace to test in.
 #[derive(Clone, Copy, Debug, PartialEq)]

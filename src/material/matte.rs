@@ -1,9 +1,9 @@
 //! [`MatteMaterial`]: purely diffuse.
 
 use super::{Material, bump};
-use crate::Spectrum;
 use crate::bxdf::{Arena, Bsdf, LambertianReflection, OrenNayar, TransportMode};
 use crate::interaction::SurfaceInteraction;
+use crate::spectrum::Spectrum;
 use crate::texture::TextureHandle;
 
 /// A purely diffuse surface, smooth or rough (PBRT 3rd edition, section 9.2.1).

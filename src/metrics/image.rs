@@ -8,8 +8,8 @@ use exr::prelude::{AnyChannels, FlatSamples, ReadChannels, ReadLayers};
 use glam::UVec2;
 
 use super::pfm;
-use crate::Spectrum;
 use crate::film::Picture;
+use crate::spectrum::Spectrum;
 
 /// What the numbers of an image mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

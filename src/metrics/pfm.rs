@@ -3,7 +3,7 @@
 use glam::UVec2;
 
 use super::{Encoding, Image};
-use crate::Spectrum;
+use crate::spectrum::Spectrum;
 
 /// Reads a PFM file: `PF` or, for one band, `Pf`; columns and rows; the scale, whose sign says the byte order.
 pub fn decode(bytes: &[u8]) -> Result<Image, String> {

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::{Emission, FilmSettings, IntegratorSettings, SamplerSettings, Scene, Shape};
-use crate::Spectrum;
 use crate::accel::Accel;
 use crate::bxdf::LambertianReflection;
 use crate::camera::{Camera, CameraError, CameraSettings};
@@ -14,6 +13,7 @@ use crate::film::{Display, Filter, FilterError, FilterSampler, Window};
 use crate::light::{AreaLight, KnownLight, Light};
 use crate::material::{Material, MatteMaterial};
 use crate::shape::{MeshError, TriangleMesh};
+use crate::spectrum::Spectrum;
 
 /// Why a scene cannot be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

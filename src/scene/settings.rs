@@ -2,8 +2,8 @@
 
 use glam::UVec2;
 
-use crate::Spectrum;
 use crate::film::{Display, Filter, Window};
+use crate::spectrum::Spectrum;
 
 /// The film's size and look.
 #[derive(Clone, Copy, Debug, PartialEq)]

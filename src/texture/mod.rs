@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 pub use constant::ConstantTexture;
 
-use crate::Spectrum;
 use crate::interaction::SurfaceInteraction;
+use crate::spectrum::Spectrum;
 
 /// A map from points of surfaces to values of type `T`: `f32` for roughness, displacement and the
 /// like, [`Spectrum`] for colours.

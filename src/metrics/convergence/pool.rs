@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::Image;
-use crate::Spectrum;
+use crate::spectrum::Spectrum;
 
 /// The mean of independent pictures, and how they scatter around it.
 ///
