@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::geometry::{BoundedPoint, Frame, Ray, unit_cross};
+use crate::geometry::{BoundedPoint, Frame, Ray, unit, unit_cross};
 use crate::shape::{TriangleMesh, triangle_normal};
 
 /// How position and normal change with the texture coordinates (u, v).
@@ -48,20 +48,41 @@ pub struct SurfaceInteraction<'a> {
     displaced: Option<Shading>,
 }
 
+/// Where on the scene's surfaces a hit is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SurfacePlace {
+    /// The number of the shape, in the order in which the scene's shapes were added.
+    pub shape: u32,
+    /// The number of the triangle in the shape's mesh.
+    pub triangle: u32,
+    /// Barycentric weights of the triangle's corners, each in `[0, 1]`; their sum is 1 but for rounding.
+    pub b: [f32; 3],
+}
+
 /// Where the answers come from.
 #[derive(Clone)]
 enum Source<'a> {
-    Triangle { mesh: &'a TriangleMesh, triangle: usize, b: [f32; 3] },
-    Given { uv: Vec2, partials: Partials },
+    Triangle { mesh: &'a TriangleMesh, place: SurfacePlace },
+    Given { uv: Vec2, partials: Partials, place: Option<SurfacePlace> },
 }
 
 impl<'a> SurfaceInteraction<'a> {
-    /// The point of a triangle with barycentric weights `b`, seen from the unit direction `wo`.
+    /// The point of a triangle with barycentric weights `b`, seen from the unit direction `wo`. The mesh
+    /// counts as the scene's first shape.
     ///
     /// # Panics
     /// If `triangle` is not one of the mesh's.
     #[inline]
     pub fn on_triangle(mesh: &'a TriangleMesh, triangle: usize, b: [f32; 3], wo: Vec3) -> Self {
+        Self::on_shape(mesh, SurfacePlace { shape: 0, triangle: triangle as u32, b }, wo)
+    }
+
+    /// The point at `place` of the shape with this mesh, seen from the unit direction `wo`.
+    #[inline]
+    pub(crate) fn on_shape(mesh: &'a TriangleMesh, place: SurfacePlace, wo: Vec3) -> Self {
+        let SurfacePlace { triangle, b, .. } = place;
+        let triangle = triangle as usize;
         let corners = mesh.corners(triangle);
         let n = triangle_normal(corners);
         // With vertex normals, they say which side is outside (PBRT 3rd edition, section 3.6.2).
@@ -74,7 +95,7 @@ impl<'a> SurfaceInteraction<'a> {
             wo,
             n,
             shading_n,
-            source: Source::Triangle { mesh, triangle, b },
+            source: Source::Triangle { mesh, place },
             displaced: None,
         }
     }
@@ -84,7 +105,8 @@ impl<'a> SurfaceInteraction<'a> {
     /// or `wo` where these span no plane.
     pub fn new(p: BoundedPoint, uv: Vec2, wo: Vec3, partials: Partials) -> Self {
         let n = unit_cross(partials.dpdu, partials.dpdv).unwrap_or(wo);
-        Self { p, wo, n, shading_n: n, source: Source::Given { uv, partials }, displaced: None }
+        let source = Source::Given { uv, partials, place: None };
+        Self { p, wo, n, shading_n: n, source, displaced: None }
     }
 
     /// The point.
@@ -99,12 +121,21 @@ impl<'a> SurfaceInteraction<'a> {
         self.p.error
     }
 
+    /// Where the hit is on the scene's surfaces; `None` for a point that was made without a mesh.
+    #[inline]
+    pub fn place(&self) -> Option<SurfacePlace> {
+        match self.source {
+            Source::Triangle { place, .. } => Some(place),
+            Source::Given { place, .. } => place,
+        }
+    }
+
     /// Texture coordinates.
     #[inline]
     pub fn uv(&self) -> Vec2 {
         match &self.source {
-            Source::Triangle { mesh, triangle, b } => {
-                let [uv0, uv1, uv2] = mesh.corner_uvs(*triangle);
+            Source::Triangle { mesh, place: SurfacePlace { triangle, b, .. } } => {
+                let [uv0, uv1, uv2] = mesh.corner_uvs(*triangle as usize);
                 b[0] * uv0 + b[1] * uv1 + b[2] * uv2
             }
             Source::Given { uv, .. } => *uv,
@@ -132,8 +163,8 @@ impl<'a> SurfaceInteraction<'a> {
     /// The derivatives of the surface itself. A triangle is flat: its normal does not change.
     pub fn partials(&self) -> Partials {
         match &self.source {
-            Source::Triangle { mesh, triangle, .. } => {
-                let [dpdu, dpdv] = mesh.position_partials(*triangle);
+            Source::Triangle { mesh, place } => {
+                let [dpdu, dpdv] = mesh.position_partials(place.triangle as usize);
                 Partials { dpdu, dpdv, ..Partials::default() }
             }
             Source::Given { partials, .. } => *partials,
@@ -171,7 +202,7 @@ impl<'a> SurfaceInteraction<'a> {
         let n = self.shading_n;
         let Partials { dpdu, dpdv, dndu, dndv } = self.partials();
         let [dndu, dndv] = match &self.source {
-            Source::Triangle { mesh, triangle, .. } => mesh.normal_partials(*triangle),
+            Source::Triangle { mesh, place } => mesh.normal_partials(place.triangle as usize),
             Source::Given { .. } => [dndu, dndv],
         };
         let [mut dpdu, mut dpdv] = [dpdu, dpdv].map(|v| v - n * n.dot(v));
@@ -182,10 +213,13 @@ impl<'a> SurfaceInteraction<'a> {
         Shading { n, dpdu, dpdv, dndu, dndv }
     }
 
-    /// Replaces the geometry that shading sees, as bump mapping does.
+    /// Replaces the geometry that shading sees, as bump mapping does. The normal is brought to unit length
+    /// and to the side of the geometric one; one that is zero or not finite leaves all as it was.
     pub fn set_shading(&mut self, shading: Shading) {
-        self.shading_n = shading.n;
-        self.displaced = Some(shading);
+        let Some(n) = unit(shading.n) else { return };
+        let n = if n.dot(self.n) < 0.0 { -n } else { n };
+        self.shading_n = n;
+        self.displaced = Some(Shading { n, ..shading });
     }
 
     /// This hit as a texture would see it from a point nearby, with another normal.
@@ -194,22 +228,10 @@ impl<'a> SurfaceInteraction<'a> {
             p: BoundedPoint { p, error: self.p.error },
             n,
             shading_n: n,
-            source: Source::Given { uv, partials: self.partials() },
+            source: Source::Given { uv, partials: self.partials(), place: self.place() },
             displaced: Some(Shading { n, ..self.shading() }),
             wo: self.wo,
         }
-    }
-
-    /// A frame around the shading normal whose tangents point anywhere: all that a surface needs
-    /// which looks the same from all sides.
-    #[inline]
-    pub fn isotropic_frame(&self) -> Frame {
-        Frame::from_normal(self.shading_n)
-    }
-
-    /// The frame around the shading normal with its x axis along ∂p/∂u.
-    pub fn tangent_frame(&self) -> Frame {
-        Frame::from_normal_and_tangent(self.shading_n, self.shading().dpdu)
     }
 
     /// The ray that leaves this point along `w`, from an origin that lies outside of the error box.

@@ -5,23 +5,31 @@ use std::cell::Cell;
 use arrayvec::ArrayVec;
 use glam::{Vec2, Vec3};
 
-use super::{BxDF, BxdfFlags, BxdfSample, LambertianReflection, Lobe};
+use super::{BxDF, BxdfFlags, BxdfSample, Lobe};
 use crate::geometry::Frame;
 use crate::geometry::float::ONE_MINUS_EPSILON;
+use crate::interaction::SurfaceInteraction;
 use crate::spectrum::Spectrum;
 
 /// The most lobes that one [`Bsdf`] holds (PBRT's `MaxBxDFs`).
 pub const MAX_LOBES: usize = 8;
 
+/// The part of the probability that all lobes share alike; the rest is shared by
+/// [`BxDF::albedo_estimate`]. So an estimate that is wrong costs noise and never loses light.
+const EQUAL_PART: f32 = 0.1;
+
 /// How a surface scatters light at one point: a sum of lobes, asked and answered in world space.
 ///
 /// It stands between the world and the lobes, and is their one guard:
-/// - world directions go in, shading coordinates reach the lobes;
+/// - world directions go in, shading coordinates reach the lobes. The frame is the one that every cosine
+///   of this surface comes from: [`abs_cos_theta`](Bsdf::abs_cos_theta);
 /// - the shading normal makes the coordinates, but the **geometric** normal decides whether light is
 ///   reflected or transmitted, so that none leaks through a surface whose shading normal leans over
-///   (PBRT 3rd edition, section 9.1); directions for which the two normals disagree are black (but for
-///   delta lobes): above the surface and below the shading plane no lobe draws any, and light sampling alone would count them;
+///   (PBRT 3rd edition, section 9.1). Directions for which the two normals disagree are black (but for
+///   delta lobes): no lobe draws any above the surface and below the shading plane, and light sampling alone
+///   would count them;
 /// - no lobe is asked about a `wo` that lies exactly along the surface;
+/// - an event's side follows from its directions, whatever its lobe says;
 /// - nothing leaves it that is not finite and non-negative. What a lobe gave instead is counted in
 ///   [`rejected`](Bsdf::rejected).
 ///
@@ -32,11 +40,11 @@ pub const MAX_LOBES: usize = 8;
 /// use lobe::glam::{Vec2, Vec3};
 ///
 /// let normal = Vec3::Y;
-/// let mut bsdf = Bsdf::new(Frame::from_normal(normal), normal, 1.0);
+/// let mut bsdf = Bsdf::new(Frame::from_normal(normal), normal);
 /// bsdf.add(LambertianReflection::new(Spectrum::splat(0.5)));
 ///
 /// let wo = Vec3::new(0.6, 0.8, 0.0);
-/// let sample = bsdf.sample_f(wo, Vec2::new(0.3, 0.7), BxdfFlags::all()).unwrap();
+/// let sample = bsdf.sample_f(wo, 0.5, Vec2::new(0.3, 0.7), BxdfFlags::all()).unwrap();
 /// assert!(sample.wi.dot(normal) > 0.0);
 /// assert_eq!(bsdf.f(wo, -sample.wi, BxdfFlags::all()), Spectrum::BLACK);
 /// ```
@@ -44,20 +52,43 @@ pub const MAX_LOBES: usize = 8;
 pub struct Bsdf<'a> {
     frame: Frame,
     ng: Vec3,
-    eta: f32,
     /// Each lobe with its kind, so that a question need not ask the lobes that it is not for.
     lobes: ArrayVec<(Lobe<'a>, BxdfFlags), MAX_LOBES>,
     rejected: Cell<u32>,
 }
 
 impl<'a> Bsdf<'a> {
-    /// A surface without lobes: it absorbs everything.
+    /// A surface without lobes, which absorbs everything, in a frame of the caller's.
     ///
-    /// `frame` is made from the shading normal, `ng` is the unit geometric normal, and `eta` is the
-    /// relative index of refraction over the boundary, 1 for what light does not pass.
+    /// `frame` stands on the shading normal, and `ng` is the unit geometric normal. A frame that is not
+    /// orthonormal to 1e-3 would change how much light there is: [`Frame::from_normal`] of `ng` takes its
+    /// place, and it is counted as rejected.
+    pub fn new(frame: Frame, ng: Vec3) -> Self {
+        let mut bsdf = Self::in_frame(frame, ng);
+        if !frame.is_orthonormal() {
+            bsdf.reject();
+            bsdf.frame = Frame::from_normal(ng.normalize_or(Vec3::Z));
+        }
+        bsdf
+    }
+
+    /// A surface without lobes in the frame of its shading normal, whose tangents point anywhere: for lobes
+    /// that look the same from all sides.
     #[inline]
-    pub fn new(frame: Frame, ng: Vec3, eta: f32) -> Self {
-        Self { frame, ng, eta, lobes: ArrayVec::new_const(), rejected: Cell::new(0) }
+    pub fn isotropic(si: &SurfaceInteraction) -> Self {
+        Self::in_frame(Frame::from_normal(si.shading_n()), si.n())
+    }
+
+    /// A surface without lobes in the frame of its shading normal, with the x axis along ∂p/∂u: for lobes
+    /// that have a grain.
+    pub fn along_u(si: &SurfaceInteraction) -> Self {
+        let tangent = si.shading().dpdu;
+        Self::in_frame(Frame::from_normal_and_tangent(si.shading_n(), tangent), si.n())
+    }
+
+    #[inline]
+    fn in_frame(frame: Frame, ng: Vec3) -> Self {
+        Self { frame, ng, lobes: ArrayVec::new_const(), rejected: Cell::new(0) }
     }
 
     /// Adds a lobe. Returns whether there was room for it: a ninth lobe is left out, and counted as
@@ -73,17 +104,19 @@ impl<'a> Bsdf<'a> {
     }
 
     /// The shading frame.
+    #[inline]
     pub fn frame(&self) -> &Frame {
         &self.frame
     }
 
-    /// The relative index of refraction.
-    pub fn eta(&self) -> f32 {
-        self.eta
+    /// |cos θ| of a world direction with the shading normal: what [`f`](Bsdf::f) has to be multiplied by.
+    #[inline]
+    pub fn abs_cos_theta(&self, w: Vec3) -> f32 {
+        w.dot(self.frame.n).abs()
     }
 
     /// How many lobes found no room, and how many answers of lobes were left out, or turned into black,
-    /// because they were negative or not finite.
+    /// because they were negative, not finite, or on a side that the lobe's flags do not name.
     pub fn rejected(&self) -> u32 {
         self.rejected.get()
     }
@@ -94,16 +127,20 @@ impl<'a> Bsdf<'a> {
         self.matching(flags).count()
     }
 
+    /// Whether [`sample_f`](Bsdf::sample_f) looks at `uc`: there are several lobes, or one that does.
+    #[inline]
+    pub fn uses_uc(&self) -> bool {
+        match &self.lobes[..] {
+            [] => false,
+            [(lobe, _)] => lobe.uses_uc(),
+            _ => true,
+        }
+    }
+
     /// The value for a pair of world directions, without the cosine, in 1/sr: the sum of the lobes of
     /// the kinds in `flags`. Delta lobes add nothing.
     #[inline]
     pub fn f(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> Spectrum {
-        if let Some(lobe) = self.only_lambertian(flags) {
-            let [wo_z, wi_z] = [wo, wi].map(|w| w.dot(self.frame.n));
-            let reflects =
-                wo_z != 0.0 && self.side([wo, wi], [wo_z, wi_z]) == BxdfFlags::REFLECTION;
-            return if reflects { self.guarded(lobe.f(wo, wi)) } else { Spectrum::BLACK };
-        }
         let local_wo = self.frame.to_local(wo);
         if local_wo.z == 0.0 {
             return Spectrum::BLACK;
@@ -112,118 +149,104 @@ impl<'a> Bsdf<'a> {
         self.guarded(f)
     }
 
-    /// A world direction `wi` drawn from one of the lobes of the kinds in `flags`, each equally likely.
+    /// A world direction `wi` drawn from one of the lobes of the kinds in `flags`, the likelier the larger
+    /// its [`BxDF::albedo_estimate`]. `uc` in `[0, 1)` chooses the lobe and its event, `u` in `[0, 1)²` the
+    /// direction.
     ///
-    /// `f` and `pdf` of the sample are those of all these lobes together, unless the chosen one is a
-    /// delta lobe. `None` when no lobe matches, or when the chosen one has no direction for this `u`.
-    pub fn sample_f(&self, wo: Vec3, u: Vec2, flags: BxdfFlags) -> Option<BxdfSample> {
-        if let Some(lobe) = self.only_lambertian(flags) {
-            let local_wo = Vec3::Z * wo.dot(self.frame.n);
-            if local_wo.z == 0.0 {
-                return None;
-            }
-            let mut sample = lobe.sample_f(local_wo, u)?;
-            let wi_z = sample.wi.z;
-            sample.wi = self.frame.to_world(sample.wi);
-            if self.side([wo, sample.wi], [local_wo.z, wi_z]) != BxdfFlags::REFLECTION {
-                sample.f = Spectrum::BLACK;
-            }
-            sample.f = self.guarded(sample.f);
-            return Some(sample);
-        }
-        let matching = self.num_components(flags);
+    /// `f` and `pdf` of the sample are those of all these lobes together, unless the event is specular.
+    /// `None` when no lobe matches, or when the chosen one has no direction for these samples.
+    pub fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2, flags: BxdfFlags) -> Option<BxdfSample> {
         let local_wo = self.frame.to_local(wo);
-        if matching == 0 || local_wo.z == 0.0 {
+        if local_wo.z == 0.0 {
             return None;
         }
-        // Choose which lobe to sample, and stretch what is left of u.x over [0, 1) again.
-        let scaled = u.x * matching as f32;
-        let chosen = (scaled as usize).min(matching - 1);
+        let shares = self.shares(local_wo, flags);
+        let (chosen, uc) = shares.choose(uc);
         let (lobe, kind) = self.matching(flags).nth(chosen)?;
-        let u = Vec2::new((scaled - chosen as f32).min(ONE_MINUS_EPSILON), u.y);
-        let mut sample = lobe.sample_f(local_wo, u)?;
+        let mut sample = lobe.sample_f(local_wo, uc, u)?;
         let local_wi = sample.wi;
         sample.wi = self.frame.to_world(local_wi);
-        let specular = kind.contains(BxdfFlags::SPECULAR);
-        if specular {
-            sample.pdf /= matching as f32;
-        } else if matching > 1 {
-            sample.pdf = self.mean_pdf(local_wo, local_wi, flags);
-        }
         if !sample.wi.is_finite() {
             self.reject();
             return None;
         }
+        self.correct_event(&mut sample, local_wo.z, local_wi.z);
+        let (world, local) = ([wo, sample.wi], [local_wo, local_wi]);
+        if sample.is_specular() {
+            sample.pdf *= shares.of(chosen);
+        } else if shares.count() > 1 {
+            sample.pdf = self.mean_pdf(&shares, local, flags);
+            sample.f = self.sum(world, local, flags);
+        } else if !kind.intersects(self.side(world, local)) {
+            sample.f = Spectrum::BLACK;
+        }
+        if !sample.is_specular() && !kind.intersects(sample.flags & SIDES) {
+            self.reject();
+        }
         if self.guarded_pdf(sample.pdf) == 0.0 {
             return None;
-        }
-        if !specular {
-            if matching > 1 {
-                sample.f = self.sum([wo, sample.wi], [local_wo, local_wi], flags);
-            } else if !kind.intersects(self.side([wo, sample.wi], [local_wo.z, local_wi.z])) {
-                sample.f = Spectrum::BLACK;
-            }
         }
         sample.f = self.guarded(sample.f);
         Some(sample)
     }
 
     /// Density over solid angle with which [`sample_f`](Bsdf::sample_f) gives `wi`: the mean over the
-    /// lobes of the kinds in `flags`.
+    /// lobes of the kinds in `flags`, by how likely each is drawn.
     #[inline]
     pub fn pdf(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> f32 {
-        let local_wo = self.frame.to_local(wo);
-        if local_wo.z == 0.0 {
+        let local = [wo, wi].map(|w| self.frame.to_local(w));
+        if local[0].z == 0.0 {
             return 0.0;
         }
-        self.guarded_pdf(self.mean_pdf(local_wo, self.frame.to_local(wi), flags))
+        self.guarded_pdf(self.mean_pdf(&self.shares(local[0], flags), local, flags))
     }
 
     /// [`f`](Bsdf::f) and [`pdf`](Bsdf::pdf) in one go.
     #[inline]
     pub fn f_and_pdf(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> (Spectrum, f32) {
-        if let Some(lobe) = self.only_lambertian(flags) {
-            let [local_wo, local_wi] = [wo, wi].map(|w| Vec3::Z * w.dot(self.frame.n));
-            return (self.f(wo, wi, flags), lobe.pdf(local_wo, local_wi));
-        }
-        let (local_wo, local_wi) = (self.frame.to_local(wo), self.frame.to_local(wi));
-        if local_wo.z == 0.0 {
+        let local = [wo, wi].map(|w| self.frame.to_local(w));
+        if local[0].z == 0.0 {
             return (Spectrum::BLACK, 0.0);
         }
-        let f = self.sum([wo, wi], [local_wo, local_wi], flags);
-        (self.guarded(f), self.guarded_pdf(self.mean_pdf(local_wo, local_wi, flags)))
+        let f = self.sum([wo, wi], local, flags);
+        let pdf = self.mean_pdf(&self.shares(local[0], flags), local, flags);
+        (self.guarded(f), self.guarded_pdf(pdf))
     }
 
     /// The share of a uniform light that leaves along the world direction `wo`: see [`BxDF::rho_hd`].
-    pub fn rho_hd(&self, wo: Vec3, u: &[Vec2], flags: BxdfFlags) -> Spectrum {
+    pub fn rho_hd(&self, wo: Vec3, uc: &[f32], u: &[Vec2], flags: BxdfFlags) -> Spectrum {
         let wo = self.frame.to_local(wo);
         if wo.z == 0.0 {
             return Spectrum::BLACK;
         }
-        self.guarded(self.matching(flags).map(|(lobe, _)| lobe.rho_hd(wo, u)).sum())
+        self.guarded(self.matching(flags).map(|(lobe, _)| lobe.rho_hd(wo, uc, u)).sum())
     }
 
     /// The share of a uniform light that leaves at all: see [`BxDF::rho_hh`].
-    pub fn rho_hh(&self, u1: &[Vec2], u2: &[Vec2], flags: BxdfFlags) -> Spectrum {
-        self.guarded(self.matching(flags).map(|(lobe, _)| lobe.rho_hh(u1, u2)).sum())
+    pub fn rho_hh(&self, u1: &[Vec2], uc: &[f32], u2: &[Vec2], flags: BxdfFlags) -> Spectrum {
+        self.guarded(self.matching(flags).map(|(lobe, _)| lobe.rho_hh(u1, uc, u2)).sum())
     }
 
-    /// The lobe of a plain diffuse surface, the most common by far, which looks at no more of a direction than
-    /// on which side it lies, and how high.
+    /// The side of an event follows from its directions, and only what crosses the surface has an index.
     #[inline]
-    fn only_lambertian(&self, flags: BxdfFlags) -> Option<&LambertianReflection> {
-        match &self.lobes[..] {
-            [(Lobe::Lambertian(lobe), kind)] if flags.contains(*kind) => Some(lobe),
-            _ => None,
+    fn correct_event(&self, sample: &mut BxdfSample, wo_z: f32, wi_z: f32) {
+        let reflects = (wo_z > 0.0) == (wi_z > 0.0);
+        let side = if reflects { BxdfFlags::REFLECTION } else { BxdfFlags::TRANSMISSION };
+        sample.flags = (sample.flags - SIDES) | side;
+        if reflects {
+            sample.eta = 1.0;
+        } else if !(sample.eta > 0.0 && sample.eta < f32::INFINITY) {
+            self.reject();
+            sample.eta = 1.0;
         }
     }
 
-    /// Reflection or transmission of a pair of world directions, whose heights over the plane of the shading normal are
-    /// `z`; neither if the two normals disagree.
+    /// Reflection or transmission of a pair of world directions, which are `local` in shading coordinates;
+    /// neither if the two normals disagree.
     #[inline]
-    fn side(&self, [wo, wi]: [Vec3; 2], z: [f32; 2]) -> BxdfFlags {
+    fn side(&self, [wo, wi]: [Vec3; 2], local: [Vec3; 2]) -> BxdfFlags {
         let reflects = (wi.dot(self.ng) > 0.0) == (wo.dot(self.ng) > 0.0);
-        match (reflects, (z[0] > 0.0) == (z[1] > 0.0)) {
+        match (reflects, (local[0].z > 0.0) == (local[1].z > 0.0)) {
             (true, true) => BxdfFlags::REFLECTION,
             (false, false) => BxdfFlags::TRANSMISSION,
             _ => BxdfFlags::empty(),
@@ -233,7 +256,7 @@ impl<'a> Bsdf<'a> {
     /// The lobes' values for a pair of directions in the world, which are `local` in shading coordinates.
     #[inline]
     fn sum(&self, world: [Vec3; 2], local: [Vec3; 2], flags: BxdfFlags) -> Spectrum {
-        let side = self.side(world, local.map(|w| w.z));
+        let side = self.side(world, local);
         let [wo, wi] = local;
         let mut f = Spectrum::BLACK;
         for (lobe, kind) in self.matching(flags) {
@@ -244,14 +267,24 @@ impl<'a> Bsdf<'a> {
         f
     }
 
+    /// The density with which one of the lobes, drawn by their shares, gives a pair of local directions.
     #[inline]
-    fn mean_pdf(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> f32 {
-        let (mut sum, mut count) = (0.0, 0);
-        for (lobe, _) in self.matching(flags) {
-            sum += lobe.pdf(wo, wi);
-            count += 1;
+    fn mean_pdf(&self, shares: &Shares, [wo, wi]: [Vec3; 2], flags: BxdfFlags) -> f32 {
+        let pdfs = self.matching(flags).map(|(lobe, _)| lobe.pdf(wo, wi));
+        pdfs.enumerate().map(|(i, pdf)| shares.of(i) * pdf).sum()
+    }
+
+    /// How likely each of the lobes of the kinds in `flags` is drawn for a local direction.
+    #[inline]
+    fn shares(&self, wo: Vec3, flags: BxdfFlags) -> Shares {
+        match self.num_components(flags) {
+            0 => Shares(ArrayVec::new_const()),
+            1 => Shares([1.0].into_iter().collect()),
+            _ => {
+                let estimates = self.matching(flags).map(|(lobe, _)| lobe.albedo_estimate(wo));
+                Shares::new(estimates.collect())
+            }
         }
-        if count > 1 { sum / count as f32 } else { sum }
     }
 
     /// The lobes of the kinds in `flags`, each with its kind.
@@ -284,5 +317,52 @@ impl<'a> Bsdf<'a> {
     #[cold]
     fn reject(&self) {
         self.rejected.set(self.rejected.get() + 1);
+    }
+}
+
+const SIDES: BxdfFlags = BxdfFlags::REFLECTION.union(BxdfFlags::TRANSMISSION);
+
+/// How likely each of several lobes is drawn: at least [`EQUAL_PART`] of an equal share.
+struct Shares(ArrayVec<f32, MAX_LOBES>);
+
+impl Shares {
+    /// The shares of two lobes or more, in proportion to these estimates but for the equal part.
+    #[inline(never)]
+    fn new(mut estimates: ArrayVec<f32, MAX_LOBES>) -> Self {
+        // `max` first: it takes NaN for 0.
+        estimates.iter_mut().for_each(|estimate| *estimate = estimate.max(0.0).min(1.0));
+        let sum: f32 = estimates.iter().sum();
+        let equal = 1.0 / estimates.len() as f32;
+        for estimate in &mut estimates {
+            let share = if sum > 0.0 { *estimate / sum } else { equal };
+            *estimate = EQUAL_PART * equal + (1.0 - EQUAL_PART) * share;
+        }
+        Self(estimates)
+    }
+
+    #[inline]
+    fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    #[inline]
+    fn of(&self, lobe: usize) -> f32 {
+        self.0[lobe]
+    }
+
+    /// The lobe that `uc` chooses, and what is left of `uc`, stretched over `[0, 1)` again.
+    #[inline]
+    fn choose(&self, uc: f32) -> (usize, f32) {
+        if self.count() < 2 {
+            return (0, uc);
+        }
+        let mut start = 0.0;
+        for (lobe, share) in self.0.iter().enumerate() {
+            if uc < start + share || lobe + 1 == self.count() {
+                return (lobe, ((uc - start) / share).clamp(0.0, ONE_MINUS_EPSILON));
+            }
+            start += share;
+        }
+        (0, uc)
     }
 }

@@ -35,13 +35,23 @@ impl BxDF for LambertianReflection {
         self.r * FRAC_1_PI
     }
 
+    #[inline]
+    fn uses_uc(&self) -> bool {
+        false
+    }
+
+    #[inline]
+    fn albedo_estimate(&self, _wo: Vec3) -> f32 {
+        self.r.max_component()
+    }
+
     /// R for every direction (formula 5.10 of the chapter).
-    fn rho_hd(&self, _wo: Vec3, _u: &[Vec2]) -> Spectrum {
+    fn rho_hd(&self, _wo: Vec3, _uc: &[f32], _u: &[Vec2]) -> Spectrum {
         self.r
     }
 
     /// R (formula 5.11 of the chapter).
-    fn rho_hh(&self, _u1: &[Vec2], _u2: &[Vec2]) -> Spectrum {
+    fn rho_hh(&self, _u1: &[Vec2], _uc: &[f32], _u2: &[Vec2]) -> Spectrum {
         self.r
     }
 }

@@ -17,4 +17,4 @@ pub use lambertian::LambertianReflection;
 pub use lobe::Lobe;
 pub use oren_nayar::OrenNayar;
 pub use scaled::ScaledBxDF;
-pub use traits::{BxDF, BxdfFlags, BxdfSample, TransportMode};
+pub use traits::{BxDF, BxdfFlags, BxdfSample};

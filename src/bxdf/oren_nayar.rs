@@ -48,10 +48,21 @@ impl BxDF for OrenNayar {
         self.r * (FRAC_1_PI * (self.a + self.b * (across / larger_cos)))
     }
 
+    #[inline]
+    fn uses_uc(&self) -> bool {
+        false
+    }
+
+    /// R: the roughness changes it by less than half.
+    #[inline]
+    fn albedo_estimate(&self, _wo: Vec3) -> f32 {
+        self.r.max_component()
+    }
+
     /// The integral of f cos θi in closed form: over φ, max(0, cos φ) gives 2; over θi it falls into
     /// the directions above and below wo. With c = cos θ and s = sin θ of wo,
     /// ρ = R (A + 2B/π [ s (θ - s c)/2 + (tan θ)(1 - s³)/3 ]).
-    fn rho_hd(&self, wo: Vec3, _u: &[Vec2]) -> Spectrum {
+    fn rho_hd(&self, wo: Vec3, _uc: &[f32], _u: &[Vec2]) -> Spectrum {
         let (cos, sin) = (abs_cos_theta(wo), sin_theta(wo));
         let theta = sin.atan2(cos);
         // tan θ (1 - s³) = s c (1 + s + s²) / (1 + s), which stays finite at grazing angles.
@@ -61,7 +72,7 @@ impl BxDF for OrenNayar {
     }
 
     /// The cosine-weighted mean of ρ_hd: R (A + B (2/3 - 64/(45π))).
-    fn rho_hh(&self, _u1: &[Vec2], _u2: &[Vec2]) -> Spectrum {
+    fn rho_hh(&self, _u1: &[Vec2], _uc: &[f32], _u2: &[Vec2]) -> Spectrum {
         self.r * (self.a + self.b * (2.0 / 3.0 - 64.0 / 45.0 * FRAC_1_PI))
     }
 }

@@ -32,8 +32,8 @@ impl<B: BxDF> BxDF for ScaledBxDF<B> {
     }
 
     #[inline]
-    fn sample_f(&self, wo: Vec3, u: Vec2) -> Option<BxdfSample> {
-        self.bxdf.sample_f(wo, u).map(|s| BxdfSample { f: self.scale * s.f, ..s })
+    fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
+        self.bxdf.sample_f(wo, uc, u).map(|s| BxdfSample { f: self.scale * s.f, ..s })
     }
 
     #[inline]
@@ -41,11 +41,21 @@ impl<B: BxDF> BxDF for ScaledBxDF<B> {
         self.bxdf.pdf(wo, wi)
     }
 
-    fn rho_hd(&self, wo: Vec3, u: &[Vec2]) -> Spectrum {
-        self.scale * self.bxdf.rho_hd(wo, u)
+    #[inline]
+    fn uses_uc(&self) -> bool {
+        self.bxdf.uses_uc()
     }
 
-    fn rho_hh(&self, u1: &[Vec2], u2: &[Vec2]) -> Spectrum {
-        self.scale * self.bxdf.rho_hh(u1, u2)
+    #[inline]
+    fn albedo_estimate(&self, wo: Vec3) -> f32 {
+        self.scale.max_component() * self.bxdf.albedo_estimate(wo)
+    }
+
+    fn rho_hd(&self, wo: Vec3, uc: &[f32], u: &[Vec2]) -> Spectrum {
+        self.scale * self.bxdf.rho_hd(wo, uc, u)
+    }
+
+    fn rho_hh(&self, u1: &[Vec2], uc: &[f32], u2: &[Vec2]) -> Spectrum {
+        self.scale * self.bxdf.rho_hh(u1, uc, u2)
     }
 }

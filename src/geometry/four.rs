@@ -32,9 +32,12 @@ pub struct Vec3x4 {
 }
 
 impl Vec3x4 {
+    /// Four zero vectors.
+    pub const ZERO: Self = Self::splat(Vec3::ZERO);
+
     /// Four times the same vector.
     #[inline(always)]
-    pub fn splat(v: Vec3) -> Self {
+    pub const fn splat(v: Vec3) -> Self {
         Self { x: Vec4::splat(v.x), y: Vec4::splat(v.y), z: Vec4::splat(v.z) }
     }
 

@@ -51,6 +51,13 @@ impl Frame {
         }
     }
 
+    /// Whether the axes have unit length and stand across each other, to 1e-3.
+    pub fn is_orthonormal(&self) -> bool {
+        let Self { s, t, n } = *self;
+        let lengths = [s, t, n].iter().all(|v| (v.length_squared() - 1.0).abs() < 1e-3);
+        lengths && [s.dot(t), t.dot(n), n.dot(s)].iter().all(|cos| cos.abs() < 1e-3)
+    }
+
     /// A world direction in shading coordinates.
     #[inline]
     pub fn to_local(&self, v: Vec3) -> Vec3 {

@@ -2,9 +2,8 @@
 
 use glam::{Vec2, Vec3};
 
-use super::{Integrator, Wave, dimension};
-use crate::bxdf::{BxdfFlags, TransportMode};
-use crate::interaction::SurfaceInteraction;
+use super::{Estimator, Integrator, Wave, dimension};
+use crate::bxdf::BxdfFlags;
 use crate::light::LightSample;
 use crate::sampling::Sampler;
 use crate::scene::Scene;
@@ -26,15 +25,26 @@ pub struct ChapterIntegrator {
 const BRIGHTNESS: f32 = 3.0;
 
 impl Integrator for ChapterIntegrator {
-    fn shade(&self, scene: &Scene, sampler: &dyn Sampler, wave: &mut Wave) {
+    fn prepare<'a>(&'a self, scene: &'a Scene) -> Box<dyn Estimator + 'a> {
+        Box::new(ChapterEstimator { scene, highlight: self.highlight })
+    }
+}
+
+struct ChapterEstimator<'a> {
+    scene: &'a Scene,
+    highlight: bool,
+}
+
+impl Estimator for ChapterEstimator<'_> {
+    fn shade(&self, sampler: &dyn Sampler, wave: &mut Wave) {
+        let scene = self.scene;
         let Wave { ids, rays, hits, radiance, arena, counters, .. } = wave;
         for (sample, (ray, hit)) in rays.iter().zip(&*hits).enumerate() {
             if !hit.is_hit() {
                 continue;
             }
             let mut si = scene.interaction(ray, hit);
-            let material = scene.material(hit);
-            let bsdf = material.compute_scattering(&mut si, arena, TransportMode::Radiance, true);
+            let bsdf = scene.bsdf(hit, &mut si, arena);
             for (dimension, light) in (dimension::FIRST_LIGHT..).zip(scene.lights()) {
                 // A light without extent takes no sample.
                 let u = if light.is_delta() {
@@ -44,7 +54,8 @@ impl Integrator for ChapterIntegrator {
                 };
                 if let Some(LightSample { wi, .. }) = light.sample_li(si.p(), u) {
                     let (f, pdf) = bsdf.f_and_pdf(si.wo(), wi, BxdfFlags::all());
-                    let factor = if self.highlight { blinn_phong(&si, wi) } else { 1.0 };
+                    let n = bsdf.frame().n;
+                    let factor = if self.highlight { blinn_phong(n, si.wo(), wi) } else { 1.0 };
                     radiance[sample] += f * (pdf * BRIGHTNESS * factor);
                 }
             }
@@ -58,10 +69,10 @@ impl Integrator for ChapterIntegrator {
     }
 }
 
-/// The factor of section 6.2.
-fn blinn_phong(si: &SurfaceInteraction, wi: Vec3) -> f32 {
-    let n = if si.shading_n().dot(si.wo()) < 0.0 { -si.shading_n() } else { si.shading_n() };
-    let halfway = (si.wo() + wi).normalize_or_zero();
+/// The factor of section 6.2, with the shading normal on the viewer's side.
+fn blinn_phong(n: Vec3, wo: Vec3, wi: Vec3) -> f32 {
+    let n = if n.dot(wo) < 0.0 { -n } else { n };
+    let halfway = (wo + wi).normalize_or_zero();
     let specular = halfway.dot(n).max(0.0).powi(32);
     let diffuse = wi.dot(n).max(0.0);
     1.5 * (0.2 + 0.2 * diffuse + 0.7 * specular)

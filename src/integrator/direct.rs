@@ -1,30 +1,23 @@
 //! [`DirectIntegrator`]: light that comes straight from the lights.
 
-use super::transport::{LightChoice, Transport};
-use super::{Integrator, Wave};
-use crate::sampling::Sampler;
+use super::path::PathTracer;
+use super::{Estimator, Integrator};
+use crate::light::LightChoice;
 use crate::scene::{LightStrategy, Scene};
 
 /// Radiance that is emitted, or reflected once: the sum over all lights, where nothing stands between
 /// (PBRT 3rd edition, section 14.3).
-pub struct DirectIntegrator(Transport);
-
-impl DirectIntegrator {
-    /// Direct light of this scene.
-    ///
-    /// # Panics
-    /// Rendering another scene with it may panic, or give a wrong picture.
-    pub fn new(scene: &Scene, strategy: LightStrategy) -> Self {
-        Self(Transport::new(scene, 1, false, strategy, LightChoice::All))
-    }
+///
+/// These are paths of one reflection, on which each light is asked instead of one of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DirectIntegrator {
+    /// How the directions that light comes from are drawn.
+    pub strategy: LightStrategy,
 }
 
 impl Integrator for DirectIntegrator {
-    fn shade(&self, scene: &Scene, sampler: &dyn Sampler, wave: &mut Wave) {
-        self.0.shade(scene, sampler, wave);
-    }
-
-    fn shadow_rays(&self) -> usize {
-        self.0.shadow_rays()
+    fn prepare<'a>(&'a self, scene: &'a Scene) -> Box<dyn Estimator + 'a> {
+        let (max_depth, roulette) = (1, false);
+        Box::new(PathTracer::new(scene, max_depth, roulette, self.strategy, LightChoice::All))
     }
 }

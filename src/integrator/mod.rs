@@ -1,45 +1,29 @@
 //! Integrators: how much light arrives along camera rays.
+//!
+//! Each algorithm stands in its own file from top to bottom: [`ChapterIntegrator`], [`DirectIntegrator`],
+//! [`PathIntegrator`]. They work on waves of samples, stage by stage; the stages that they share are in `wave/`.
 
 mod chapter;
 mod direct;
 mod path;
-mod paths;
-mod plain;
-mod plain_lights;
-mod scatter;
-mod transport;
+mod traits;
 mod wave;
 
 pub use chapter::ChapterIntegrator;
 pub use direct::DirectIntegrator;
 pub use path::PathIntegrator;
+pub use traits::{Estimator, Integrator};
 pub use wave::{Counters, ShadowRays, Wave, dimension};
 
-use crate::sampling::Sampler;
-use crate::scene::{IntegratorSettings, Scene};
-
-/// A way to compute light. It works on many camera rays at once, a [`Wave`], so that rays can be
-/// traced in batches.
-pub trait Integrator: Send + Sync {
-    /// Adds to `wave.radiance` what arrives along each camera ray, whose hits are known already.
-    /// Samples come from `sampler` by the number in `wave.ids`, in dimensions from
-    /// [`dimension::FIRST_LIGHT`] on.
-    fn shade(&self, scene: &Scene, sampler: &dyn Sampler, wave: &mut Wave);
-
-    /// The most rays towards lights that a sample has waiting at a time, so that room can be made for them
-    /// beforehand.
-    fn shadow_rays(&self) -> usize {
-        1
-    }
-}
+use crate::scene::IntegratorSettings;
 
 /// The integrator that the settings ask for.
-pub(crate) fn from_settings(scene: &Scene, settings: &IntegratorSettings) -> Box<dyn Integrator> {
+pub(crate) fn from_settings(settings: &IntegratorSettings) -> Box<dyn Integrator> {
     match *settings {
         IntegratorSettings::Chapter { highlight } => Box::new(ChapterIntegrator { highlight }),
-        IntegratorSettings::Direct { strategy } => Box::new(DirectIntegrator::new(scene, strategy)),
+        IntegratorSettings::Direct { strategy } => Box::new(DirectIntegrator { strategy }),
         IntegratorSettings::Path { max_depth, roulette, strategy } => {
-            Box::new(PathIntegrator::new(scene, max_depth, roulette, strategy))
+            Box::new(PathIntegrator { max_depth, roulette, strategy })
         }
     }
 }

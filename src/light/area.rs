@@ -4,9 +4,10 @@ use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
-use super::rectangle::{Rectangle, RectangleLight};
-use super::{BoundingSphere, Light, LightHit, LightSample};
+use super::rectangle::Rectangle;
+use super::{BoundingSphere, Light, LightHit, LightSample, LightSamplesX4, one_by_one};
 use crate::geometry::float::gamma;
+use crate::geometry::four::Vec3x4;
 use crate::geometry::{BoundedPoint, unit};
 use crate::sampling::{Discrete, uniform_triangle};
 use crate::shape::{TriangleMesh, triangle_normal};
@@ -52,12 +53,6 @@ impl AreaLight {
         let area = areas().sum();
         let rectangle = find_rectangle(&mesh, two_sided);
         Some(Self { mesh, triangles, area, rectangle, radiance, two_sided })
-    }
-
-    /// The light as a rectangle, if it is one.
-    pub(super) fn as_rectangle_light(&self) -> Option<RectangleLight> {
-        let Self { rectangle, radiance, two_sided, .. } = *self;
-        Some(RectangleLight { rectangle: rectangle?, radiance, two_sided })
     }
 
     /// A point drawn uniformly over the area, and the unit outward normal there.
@@ -141,9 +136,17 @@ impl Light for AreaLight {
     }
 
     /// π A L, from both sides twice that.
-    fn power(&self, _scene: &BoundingSphere) -> Spectrum {
+    fn power(&self, _scene: &BoundingSphere) -> Option<Spectrum> {
         let sides = if self.two_sided { 2.0 } else { 1.0 };
-        self.radiance * (sides * PI * self.area as f32)
+        Some(self.radiance * (sides * PI * self.area as f32))
+    }
+
+    fn sample_li_x4(&self, points: &[Vec3x4], u: &[[Vec2; 4]], samples: &mut [LightSamplesX4]) {
+        for ((&p, &u), samples) in points.iter().zip(u).zip(samples) {
+            let on_rectangle = self.rectangle.as_ref();
+            let found = on_rectangle.and_then(|r| r.sample_x4(p, u, self.radiance, self.two_sided));
+            *samples = found.unwrap_or_else(|| one_by_one(p, |i, p| self.sample_li(p, u[i])));
+        }
     }
 }
 

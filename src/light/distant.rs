@@ -36,7 +36,7 @@ impl Light for DistantLight {
     }
 
     /// E π r²: what goes through the disk that the scene's sphere is seen as.
-    fn power(&self, scene: &BoundingSphere) -> Spectrum {
-        self.irradiance * (PI * scene.radius * scene.radius)
+    fn power(&self, scene: &BoundingSphere) -> Option<Spectrum> {
+        Some(self.irradiance * (PI * scene.radius * scene.radius))
     }
 }

@@ -18,23 +18,6 @@ impl PointLight {
     pub fn new(position: Vec3, intensity: Spectrum) -> Self {
         Self { position, intensity }
     }
-
-    /// What `sample_li` gives for each of four points.
-    #[inline(always)]
-    pub(crate) fn sample_x4(&self, p: Vec3x4) -> LightSamplesX4 {
-        let from = Vec3x4::splat(self.position);
-        let to_light = from - p;
-        let distance2 = to_light.length_squared();
-        let falloff = distance2.to_array();
-        LightSamplesX4 {
-            exists: distance2.cmpgt(Vec4::ZERO),
-            li: four(|i| self.intensity / falloff[i]),
-            wi: to_light.divided_by(distance2.sqrt()),
-            pdf: Vec4::ONE,
-            from,
-            is_near: BVec4A::TRUE,
-        }
-    }
 }
 
 impl Light for PointLight {
@@ -57,7 +40,24 @@ impl Light for PointLight {
     }
 
     /// 4π I.
-    fn power(&self, _scene: &BoundingSphere) -> Spectrum {
-        self.intensity * (4.0 * std::f32::consts::PI)
+    fn power(&self, _scene: &BoundingSphere) -> Option<Spectrum> {
+        Some(self.intensity * (4.0 * std::f32::consts::PI))
+    }
+
+    fn sample_li_x4(&self, points: &[Vec3x4], _: &[[Vec2; 4]], samples: &mut [LightSamplesX4]) {
+        let from = Vec3x4::splat(self.position);
+        for (&p, samples) in points.iter().zip(samples) {
+            let to_light = from - p;
+            let distance2 = to_light.length_squared();
+            let falloff = distance2.to_array();
+            *samples = LightSamplesX4 {
+                exists: distance2.cmpgt(Vec4::ZERO),
+                li: four(|i| self.intensity / falloff[i]),
+                wi: to_light.divided_by(distance2.sqrt()),
+                pdf: Vec4::ONE,
+                from,
+                is_near: BVec4A::TRUE,
+            };
+        }
     }
 }

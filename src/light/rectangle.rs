@@ -1,4 +1,4 @@
-//! [`Rectangle`]: two triangles that are one; [`RectangleLight`]: one that shines.
+//! [`Rectangle`]: two triangles that are one, sampled by solid angle.
 
 use glam::{BVec4A, DVec2, DVec3, Vec2, Vec3, Vec4};
 
@@ -124,25 +124,22 @@ impl Rectangle {
         let start = [along(self.axes[0]), along(self.axes[1])];
         (SeenX4::new(start, self.size.as_vec2(), z.abs()), z.cmplt(Vec4::ZERO))
     }
-}
 
-/// A rectangle that shines, to be sampled for four points at once.
-#[derive(Clone, Copy)]
-pub(crate) struct RectangleLight {
-    pub(super) rectangle: Rectangle,
-    pub(super) radiance: Spectrum,
-    pub(super) two_sided: bool,
-}
-
-impl RectangleLight {
-    /// What [`AreaLight`](super::AreaLight) gives for each of four points; `None` if that takes more than f32.
+    /// Samples of light from the rectangle for four points, those on its outer side or with `two_sided` all;
+    /// `None` if that takes more than f32.
     #[inline(always)]
-    pub(crate) fn sample_x4(&self, p: Vec3x4, u: [Vec2; 4]) -> Option<LightSamplesX4> {
-        let (seen, outside) = self.rectangle.seen_from_x4(p);
+    pub(super) fn sample_x4(
+        &self,
+        p: Vec3x4,
+        u: [Vec2; 4],
+        radiance: Spectrum,
+        two_sided: bool,
+    ) -> Option<LightSamplesX4> {
+        let (seen, outside) = self.seen_from_x4(p);
         if !seen.sound.all() {
             return None;
         }
-        let points = self.rectangle.points_x4(&seen, u);
+        let points = self.points_x4(&seen, u);
         let to_light = points - p;
         // As `unit` has it.
         let length2 = to_light.length_squared();
@@ -150,14 +147,14 @@ impl RectangleLight {
         if !fine.all() {
             return None;
         }
-        let error = Vec3x4::splat(self.rectangle.error) + to_light.abs() * Vec4::splat(gamma(8));
+        let error = Vec3x4::splat(self.error) + to_light.abs() * Vec4::splat(gamma(8));
         let point = BoundedPointx4 { p: points, error };
         Some(LightSamplesX4 {
-            exists: if self.two_sided { BVec4A::TRUE } else { outside },
-            li: [self.radiance; 4],
+            exists: if two_sided { BVec4A::TRUE } else { outside },
+            li: [radiance; 4],
             wi: to_light.divided_by(length2.sqrt()),
             pdf: Vec4::ONE / seen.solid_angle,
-            from: point.ray_origins(Vec3x4::splat(self.rectangle.normal()), -to_light),
+            from: point.ray_origins(Vec3x4::splat(self.normal()), -to_light),
             is_near: BVec4A::TRUE,
         })
     }

@@ -20,20 +20,6 @@ impl SkyLight {
     pub fn new(radiance: Spectrum) -> Self {
         Self { radiance }
     }
-
-    /// What `sample_li` gives for each of four points.
-    #[inline(always)]
-    pub(crate) fn sample_x4(&self, u: [Vec2; 4]) -> LightSamplesX4 {
-        let wi = uniform_sphere::sample_x4(u);
-        LightSamplesX4 {
-            exists: BVec4A::TRUE,
-            li: [self.radiance; 4],
-            wi: wi * (1.0 / wi.length_squared().sqrt()),
-            pdf: Vec4::splat(uniform_sphere::pdf()),
-            from: Vec3x4::splat(Vec3::ZERO),
-            is_near: BVec4A::FALSE,
-        }
-    }
 }
 
 impl Light for SkyLight {
@@ -67,7 +53,21 @@ impl Light for SkyLight {
     }
 
     /// 4π² r² L: from each of 4π directions, through the disk that the scene's sphere is seen as.
-    fn power(&self, scene: &BoundingSphere) -> Spectrum {
-        self.radiance * (4.0 * PI * PI * scene.radius * scene.radius)
+    fn power(&self, scene: &BoundingSphere) -> Option<Spectrum> {
+        Some(self.radiance * (4.0 * PI * PI * scene.radius * scene.radius))
+    }
+
+    fn sample_li_x4(&self, _: &[Vec3x4], u: &[[Vec2; 4]], samples: &mut [LightSamplesX4]) {
+        for (&u, samples) in u.iter().zip(samples) {
+            let wi = uniform_sphere::sample_x4(u);
+            *samples = LightSamplesX4 {
+                exists: BVec4A::TRUE,
+                li: [self.radiance; 4],
+                wi: wi * (1.0 / wi.length_squared().sqrt()),
+                pdf: Vec4::splat(uniform_sphere::pdf()),
+                from: Vec3x4::ZERO,
+                is_near: BVec4A::FALSE,
+            };
+        }
     }
 }

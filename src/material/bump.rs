@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 
 use crate::geometry::unit_cross;
 use crate::interaction::{Shading, SurfaceInteraction};
-use crate::texture::TextureHandle;
+use crate::texture::Texture;
 
 /// The step in u and v of the difference quotient (PBRT's value when a ray carries no differentials).
 const STEP: f32 = 0.0005;
@@ -18,7 +18,7 @@ const LEAST_STEP: f32 = 64.0 * f32::EPSILON;
 /// With d the displacement, the displaced surface p' = p + d n has the derivative
 /// ∂p'/∂u = ∂p/∂u + ∂d/∂u n + d ∂n/∂u (PBRT 3rd edition, section 9.3, equation 9.1), and ∂d/∂u
 /// is a forward difference. Where that gives nothing usable the frame is left as it is.
-pub fn bump(displacement: &TextureHandle<f32>, si: &mut SurfaceInteraction) {
+pub fn bump(displacement: &dyn Texture<f32>, si: &mut SurfaceInteraction) {
     let shading = si.shading();
     let here = displacement.evaluate(si);
     let slope = |axis: Vec2, dpdu: Vec3, dndu: Vec3| {

@@ -1,10 +1,10 @@
 //! [`MatteMaterial`]: purely diffuse.
 
 use super::{Material, bump};
-use crate::bxdf::{Arena, Bsdf, LambertianReflection, OrenNayar, TransportMode};
+use crate::bxdf::{Arena, Bsdf, LambertianReflection, OrenNayar};
 use crate::interaction::SurfaceInteraction;
 use crate::spectrum::Spectrum;
-use crate::texture::TextureHandle;
+use crate::texture::{Texture, TextureHandle};
 
 /// A purely diffuse surface, smooth or rough (PBRT 3rd edition, section 9.2.1).
 ///
@@ -21,44 +21,29 @@ pub struct MatteMaterial {
 
 impl MatteMaterial {
     /// Reflects the share `kd`, brought into `[0, 1]` per band, by Lambert's law.
-    pub fn new(kd: impl Into<TextureHandle<Spectrum>>) -> Self {
-        Self { kd: kd.into(), sigma: None, bump: None }
+    pub fn new(kd: impl Texture<Spectrum> + 'static) -> Self {
+        Self { kd: kd.into_handle(), sigma: None, bump: None }
     }
 
     /// Adds roughness: the standard deviation of the surface's slopes in degrees, brought into
     /// `[0, 90]`. Where it is 0 Lambert's law holds, elsewhere [`OrenNayar`].
-    pub fn with_sigma(self, sigma: impl Into<TextureHandle<f32>>) -> Self {
-        Self { sigma: Some(sigma.into()), ..self }
+    pub fn with_sigma(self, sigma: impl Texture<f32> + 'static) -> Self {
+        Self { sigma: Some(sigma.into_handle()), ..self }
     }
 
     /// Adds a displacement along the normal, in scene units, that tilts the shading frame.
-    pub fn with_bump(self, displacement: impl Into<TextureHandle<f32>>) -> Self {
-        Self { bump: Some(displacement.into()), ..self }
-    }
-
-    /// The one lobe that it has at every hit, if that is so.
-    pub(crate) fn plain(&self) -> Option<LambertianReflection> {
-        let kd = self.kd.constant()?;
-        let smooth = self.sigma.as_ref().is_none_or(|sigma| sigma.constant() == Some(0.0));
-        let plain = smooth && self.bump.is_none() && kd.is_finite();
-        let r = kd.clamp(0.0, 1.0);
-        (plain && !r.is_black()).then(|| LambertianReflection::new(r))
+    pub fn with_bump(self, displacement: impl Texture<f32> + 'static) -> Self {
+        Self { bump: Some(displacement.into_handle()), ..self }
     }
 }
 
 impl Material for MatteMaterial {
     #[inline]
-    fn compute_scattering<'a>(
-        &self,
-        si: &mut SurfaceInteraction,
-        _arena: &'a Arena,
-        _mode: TransportMode,
-        _allow_multiple_lobes: bool,
-    ) -> Bsdf<'a> {
+    fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, _: &'a Arena) -> Bsdf<'a> {
         if let Some(displacement) = &self.bump {
             bump(displacement, si);
         }
-        let mut bsdf = Bsdf::new(si.isotropic_frame(), si.n(), 1.0);
+        let mut bsdf = Bsdf::isotropic(si);
         let kd = self.kd.evaluate(si);
         // What is not finite is passed on: the Bsdf counts it.
         let r = if kd.is_finite() { kd.clamp(0.0, 1.0) } else { kd };
@@ -71,5 +56,13 @@ impl Material for MatteMaterial {
             }
         }
         bsdf
+    }
+
+    fn constant_lambertian(&self) -> Option<LambertianReflection> {
+        let kd = self.kd.constant()?;
+        let smooth = self.sigma.as_ref().is_none_or(|sigma| sigma.constant() == Some(0.0));
+        let plain = smooth && self.bump.is_none() && kd.is_finite();
+        let r = kd.clamp(0.0, 1.0);
+        (plain && !r.is_black()).then(|| LambertianReflection::new(r))
     }
 }

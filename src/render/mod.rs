@@ -129,7 +129,7 @@ pub fn render_as(
 ) -> Result<Rendered, RenderError> {
     let settings = with_options(sampler, options);
     let sampler = sampler_from_settings(scene, &settings);
-    let integrator = integrator::from_settings(scene, integrator);
+    let integrator = integrator::from_settings(integrator);
     render_sets(scene, &*integrator, &*sampler, &settings, options)
 }
 
@@ -166,9 +166,11 @@ fn render_sets(
     let contents = FilmContents { variance, first_hits: options.layers };
     let film = Film::new(film.resolution, film.window(), contents)?;
     let shared = Mutex::new((film, Counters::default()));
+    let estimator = integrator.prepare(scene);
+    let estimator = &*estimator;
     let mut threads = 0;
     while let Some(indices) = passes.next() {
-        let pass = Pass { scene, integrator, sampler, options, indices, sets, contents };
+        let pass = Pass { scene, estimator, sampler, options, indices, sets, contents };
         threads = threads.max(pass.render(&shared)?);
     }
     let (film, counters) = shared.into_inner().unwrap_or_else(PoisonError::into_inner);

@@ -9,14 +9,14 @@ use super::tiles::Tiles;
 use super::worker::Worker;
 use super::{Progress, RenderError, RenderOptions};
 use crate::film::{Film, FilmContents};
-use crate::integrator::{Counters, Integrator};
+use crate::integrator::{Counters, Estimator};
 use crate::sampling::Sampler;
 use crate::scene::Scene;
 
 /// Samples that are taken of all pixels before any more are.
 pub struct Pass<'a> {
     pub scene: &'a Scene,
-    pub integrator: &'a dyn Integrator,
+    pub estimator: &'a dyn Estimator,
     pub sampler: &'a dyn Sampler,
     pub options: &'a RenderOptions<'a>,
     /// Which samples of each set.
@@ -56,9 +56,8 @@ impl Pass<'_> {
         pixels: &AtomicU64,
         shared: &Mutex<(Film, Counters)>,
     ) -> Result<(), RenderError> {
-        let Self { scene, integrator, sampler, options, .. } = *self;
-        let mut worker =
-            Worker::new(scene, integrator, sampler, options, self.sets, self.contents)?;
+        let Self { scene, estimator, sampler, options, .. } = *self;
+        let mut worker = Worker::new(scene, estimator, sampler, options, self.sets, self.contents)?;
         let cancelled = || options.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
         while !cancelled() {
             let Some(tile) = tiles.next() else { break };

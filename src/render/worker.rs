@@ -6,9 +6,9 @@ use glam::UVec2;
 
 use super::RenderOptions;
 use super::samples::Samples;
-use crate::bxdf::{BxdfFlags, TransportMode};
+use crate::bxdf::BxdfFlags;
 use crate::film::{Film, FilmContents, FilmError, Window};
-use crate::integrator::{Counters, Integrator, Wave};
+use crate::integrator::{Counters, Estimator, Wave};
 use crate::sampling::{SampleId, Sampler};
 use crate::scene::Scene;
 
@@ -23,11 +23,12 @@ const RHO_POINTS: usize = 16;
 /// grows until it has met the hit that needs most.
 pub struct Worker<'a> {
     scene: &'a Scene,
-    integrator: &'a dyn Integrator,
+    estimator: &'a dyn Estimator,
     sampler: &'a dyn Sampler,
     wave: Wave,
     tile: Film,
     sets: u32,
+    rho_choices: [f32; RHO_POINTS],
     rho_points: [glam::Vec2; RHO_POINTS],
 }
 
@@ -35,7 +36,7 @@ impl<'a> Worker<'a> {
     /// A worker with room for the largest tile.
     pub fn new(
         scene: &'a Scene,
-        integrator: &'a dyn Integrator,
+        estimator: &'a dyn Estimator,
         sampler: &'a dyn Sampler,
         options: &RenderOptions,
         sets: u32,
@@ -47,11 +48,12 @@ impl<'a> Worker<'a> {
         let tile = Film::new(film.resolution, largest, contents)?;
         Ok(Self {
             scene,
-            integrator,
+            estimator,
             sampler,
-            wave: Wave::with_capacity(WAVE, integrator.shadow_rays()),
+            wave: Wave::with_capacity(WAVE, estimator.shadow_rays()),
             tile,
             sets,
+            rho_choices: std::array::from_fn(|i| (i as f32 * 0.754_877_7).fract()),
             rho_points: lattice(),
         })
     }
@@ -64,7 +66,7 @@ impl<'a> Worker<'a> {
         while !samples.is_empty() {
             samples.fill(WAVE, &mut self.wave.ids);
             self.wave.begin(self.scene, self.sampler);
-            self.integrator.shade(self.scene, self.sampler, &mut self.wave);
+            self.estimator.shade(self.sampler, &mut self.wave);
             self.add_samples();
             if self.tile.has_layers() {
                 self.add_first_hits();
@@ -100,12 +102,11 @@ impl<'a> Worker<'a> {
                 continue;
             }
             let mut si = self.scene.interaction(ray, hit);
-            let material = self.scene.material(hit);
-            let bsdf =
-                material.compute_scattering(&mut si, &wave.arena, TransportMode::Radiance, true);
-            let albedo = bsdf.rho_hd(si.wo(), &self.rho_points, BxdfFlags::all());
+            let bsdf = self.scene.bsdf(hit, &mut si, &wave.arena);
+            let (uc, u) = (&self.rho_choices, &self.rho_points);
+            let albedo = bsdf.rho_hd(si.wo(), uc, u, BxdfFlags::all());
             wave.counters.rejected += u64::from(bsdf.rejected());
-            self.tile.add_first_hit(id.pixel, si.shading_n(), hit.t, albedo);
+            self.tile.add_first_hit(id.pixel, bsdf.frame().n, hit.t, albedo);
         }
         wave.arena.reset();
     }

@@ -1,16 +1,14 @@
 //! [`SceneBuilder`]: scenes without a file.
 
-use std::any::Any;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Instant;
 
 use super::{Emission, FilmSettings, IntegratorSettings, SamplerSettings, Scene, Shape};
 use crate::accel::Accel;
-use crate::bxdf::LambertianReflection;
 use crate::camera::{Camera, CameraError, CameraSettings};
 use crate::film::{Display, Filter, FilterError, FilterSampler, Window};
-use crate::light::{AreaLight, KnownLight, Light};
+use crate::light::{AreaLight, Light};
 use crate::material::{Material, MatteMaterial};
 use crate::shape::{MeshError, TriangleMesh};
 use crate::spectrum::Spectrum;
@@ -57,9 +55,6 @@ struct NewShape {
     emission: Option<Emission>,
 }
 
-/// A material, with its lobe if it has one and the same everywhere.
-type NewMaterial = (Arc<dyn Material>, Option<LambertianReflection>);
-
 /// Collects a scene part by part, in any order, and checks it as a whole at the end.
 #[derive(Default)]
 pub struct SceneBuilder {
@@ -67,10 +62,9 @@ pub struct SceneBuilder {
     film: FilmSettings,
     sampler: SamplerSettings,
     integrator: IntegratorSettings,
-    materials: BTreeMap<String, NewMaterial>,
+    materials: BTreeMap<String, Arc<dyn Material>>,
     shapes: Vec<NewShape>,
     lights: Vec<Arc<dyn Light>>,
-    known_lights: Vec<Option<KnownLight>>,
 }
 
 impl SceneBuilder {
@@ -118,17 +112,9 @@ impl SceneBuilder {
         Self { integrator, ..self }
     }
 
-    /// Adds a material; one of the same name is replaced.
+    /// Adds a material; one of the same name is replaced. One that is held elsewhere too comes in an [`Arc`].
     pub fn material(mut self, name: impl Into<String>, material: impl Material + 'static) -> Self {
-        let matte = (&material as &dyn Any).downcast_ref::<MatteMaterial>();
-        let plain = matte.and_then(MatteMaterial::plain);
-        self.materials.insert(name.into(), (Arc::new(material), plain));
-        self
-    }
-
-    /// Adds a material that may be held elsewhere too.
-    pub fn shared_material(mut self, name: impl Into<String>, material: Arc<dyn Material>) -> Self {
-        self.materials.insert(name.into(), (material, None));
+        self.materials.insert(name.into(), material.into_arc());
         self
     }
 
@@ -169,10 +155,9 @@ impl SceneBuilder {
         self
     }
 
-    /// Adds a light.
+    /// Adds a light. One that is held elsewhere too comes in an [`Arc`].
     pub fn light(mut self, light: impl Light + 'static) -> Self {
-        self.known_lights.push(KnownLight::new(&light));
-        self.lights.push(Arc::new(light));
+        self.lights.push(light.into_arc());
         self
     }
 
@@ -203,24 +188,23 @@ impl SceneBuilder {
         let camera = self.checked_camera()?;
         let mut shapes = Vec::with_capacity(self.shapes.len());
         let mut meshes = Vec::with_capacity(self.shapes.len());
-        let (mut lights, mut known_lights) = (self.lights, self.known_lights);
+        let mut lights = self.lights;
         for NewShape { name, mesh, material, emission } in self.shapes {
             mesh.check().map_err(|error| SceneError::Mesh(name.clone(), error))?;
-            let (material, lobe) = match material {
+            let material = match material {
                 Some(material) => match self.materials.get(&material) {
                     Some(found) => found.clone(),
                     None => return Err(SceneError::UnknownMaterial { shape: name, material }),
                 },
-                None => (Arc::new(MatteMaterial::new(Spectrum::BLACK)) as _, None),
+                None => Arc::new(MatteMaterial::new(Spectrum::BLACK)),
             };
-            let plain = lobe.filter(|_| mesh.normals.is_empty());
+            let plain = material.constant_lambertian().filter(|_| mesh.normals.is_empty());
             // A mesh without area can neither be seen nor shine.
             let light = emission
                 .and_then(|Emission { radiance, two_sided }| {
                     AreaLight::new(&mesh, radiance, two_sided)
                 })
                 .map(|light| {
-                    known_lights.push(KnownLight::new(&light));
                     lights.push(Arc::new(light));
                     lights.len() - 1
                 });
@@ -244,7 +228,6 @@ impl SceneBuilder {
             meshes,
             filter: FilterSampler::new(self.film.filter)?,
             lights,
-            known_lights,
             is_plain,
             accel,
             build_seconds: start.elapsed().as_secs_f64(),

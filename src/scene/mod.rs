@@ -17,12 +17,12 @@ pub use settings::{
 use glam::Vec3;
 
 use crate::accel::{Accel, Hit};
-use crate::bxdf::LambertianReflection;
+use crate::bxdf::{Arena, Bsdf, LambertianReflection};
 use crate::camera::{Camera, CameraSettings};
 use crate::film::FilterSampler;
 use crate::geometry::Ray;
-use crate::interaction::SurfaceInteraction;
-use crate::light::{BoundingSphere, KnownLight, Light};
+use crate::interaction::{SurfaceInteraction, SurfacePlace};
+use crate::light::{BoundingSphere, Light};
 use crate::material::Material;
 use crate::shape::TriangleMesh;
 
@@ -60,8 +60,6 @@ pub struct Scene {
     shapes: Vec<Shape>,
     meshes: Vec<TriangleMesh>,
     lights: Vec<Arc<dyn Light>>,
-    /// By light: those of kinds that are sampled four at a time.
-    known_lights: Vec<Option<KnownLight>>,
     is_plain: bool,
     accel: Accel,
     build_seconds: f64,
@@ -158,11 +156,6 @@ impl Scene {
         self.shapes.iter().filter_map(|shape| shape.light)
     }
 
-    /// The lights of kinds that can be sampled four at a time, by their numbers.
-    pub(crate) fn known_lights(&self) -> &[Option<KnownLight>] {
-        &self.known_lights
-    }
-
     /// The only lobe that the surface has at a hit, where it has a constant one on flat triangles. A miss
     /// has none.
     #[inline]
@@ -199,15 +192,22 @@ impl Scene {
     #[inline]
     pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction<'_> {
         let mesh = &self.meshes[hit.shape as usize];
-        SurfaceInteraction::on_triangle(mesh, hit.triangle as usize, hit.b, -ray.d)
+        let place = SurfacePlace { shape: hit.shape, triangle: hit.triangle, b: hit.b };
+        SurfaceInteraction::on_shape(mesh, place, -ray.d)
     }
 
-    /// What the surface is made of at a hit.
+    /// How the surface scatters light at a hit that [`Scene::interaction`] told about, and the frame that its
+    /// material gave it, in `si`. This is the one place where hits are turned into lobes.
     ///
     /// # Panics
     /// Like [`Scene::interaction`].
     #[inline]
-    pub fn material(&self, hit: &Hit) -> &dyn Material {
-        &*self.shapes[hit.shape as usize].material
+    pub fn bsdf<'a>(
+        &'a self,
+        hit: &Hit,
+        si: &mut SurfaceInteraction,
+        arena: &'a Arena,
+    ) -> Bsdf<'a> {
+        self.shapes[hit.shape as usize].material.compute_scattering(si, arena)
     }
 }

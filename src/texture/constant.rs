@@ -14,15 +14,15 @@ impl<T> ConstantTexture<T> {
     pub const fn new(value: T) -> Self {
         Self { value }
     }
-
-    pub(super) const fn value(&self) -> &T {
-        &self.value
-    }
 }
 
 impl<T: Copy + Send + Sync> Texture<T> for ConstantTexture<T> {
     #[inline]
     fn evaluate(&self, _si: &SurfaceInteraction) -> T {
         self.value
+    }
+
+    fn constant(&self) -> Option<T> {
+        Some(self.value)
     }
 }

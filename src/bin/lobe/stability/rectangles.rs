@@ -97,7 +97,7 @@ pub fn solid_angles_of_lamps(effort: f64) -> Sweep {
         let to_light = *corner + 0.5 * *ex + 0.5 * *ey - *eye;
         let distance = to_light.length();
         let n = mesh.geometric_normal(0);
-        let hit = LightHit { origin: *eye, wi: to_light / distance, distance, n };
+        let hit = LightHit::new(*eye, to_light / distance, distance, n);
         let light = AreaLight::new(&mesh, Spectrum::WHITE, true);
         light.map_or(f32::NAN, |light| 1.0 / light.pdf_li(&hit))
     };

@@ -3,9 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use crate::accel::Hit;
-use crate::bxdf::{Bsdf, BxdfFlags};
 use crate::geometry::Ray;
-use crate::interaction::SurfaceInteraction;
 use crate::sampling::SampleId;
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
@@ -13,7 +11,7 @@ use crate::spectrum::Spectrum;
 /// What is known of a path beside its ray.
 #[derive(Clone, Copy)]
 pub struct Path {
-    /// Which share of the light at its end reaches the camera, over the density of its being drawn.
+    /// β: path throughput divided by path density.
     pub beta: Spectrum,
     /// Where its ray begins, before the origin was moved off the surface. Nothing of use for a ray from the
     /// camera, which begins where it begins.
@@ -143,35 +141,6 @@ impl Met {
             self.plain = active.len();
             active.extend_from_slice(others);
         }
-    }
-}
-
-/// A path at the surface that it has met.
-pub struct Vertex<'a> {
-    pub path: &'a Path,
-    pub si: &'a SurfaceInteraction<'a>,
-    pub bsdf: &'a Bsdf<'a>,
-}
-
-impl Vertex<'_> {
-    /// The path with one more reflection, and the direction in which it goes on.
-    #[inline]
-    pub fn step(&self, u: Vec2) -> Option<(Path, Vec3)> {
-        let Self { path, si, bsdf } = self;
-        let drawn = bsdf.sample_f(si.wo(), u, BxdfFlags::all())?;
-        let cos_theta = drawn.wi.dot(si.shading_n()).abs();
-        let beta = path.beta * drawn.f * (cos_theta / drawn.pdf);
-        if beta.is_black() {
-            return None;
-        }
-        let is_delta = drawn.flags.contains(BxdfFlags::SPECULAR);
-        let pdf = if is_delta { f32::INFINITY } else { drawn.pdf };
-        let mut eta_scale = path.eta_scale;
-        if drawn.flags.contains(BxdfFlags::TRANSMISSION) {
-            let eta2 = bsdf.eta() * bsdf.eta();
-            eta_scale *= if si.wo().dot(si.n()) > 0.0 { eta2 } else { 1.0 / eta2 };
-        }
-        Some((Path { beta, p: si.p(), pdf, eta_scale, sample: path.sample }, drawn.wi))
     }
 }
 

@@ -1,13 +1,13 @@
 //! [`LightSamples`]: light that may arrive at four hits.
 
-use glam::{BVec4A, Vec2, Vec3, Vec4};
+use glam::{BVec4A, Vec2, Vec4};
 
 use super::plain::PlainHits;
-use super::transport::Transport;
+use super::rules::PathRules;
 use crate::geometry::Ray;
 use crate::geometry::float::ONE_MINUS_EPSILON;
 use crate::geometry::four::{Vec3x4, four, rays_x4};
-use crate::light::LightSamplesX4;
+use crate::light::{LightSamplesX4, one_by_one};
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 
@@ -21,43 +21,20 @@ pub struct LightSamples {
 impl LightSamples {
     /// Samples of one light.
     #[inline(always)]
-    pub fn new(transport: &Transport, number: usize, mut samples: LightSamplesX4) -> Self {
-        samples.pdf *= transport.probability[number];
-        let weighed = transport.finds && transport.visible[number];
-        Self { samples, weighed: if weighed { BVec4A::TRUE } else { BVec4A::FALSE } }
+    pub fn new(rules: &PathRules, light: usize, mut samples: LightSamplesX4) -> Self {
+        samples.pdf *= rules.lights.probability(light);
+        let weighed = if rules.weighs(light) { BVec4A::TRUE } else { BVec4A::FALSE };
+        Self { samples, weighed }
     }
 
     /// A sample for each of the points `p`, of the light with the number beside its place on the light.
-    pub fn of_any(
-        transport: &Transport,
-        scene: &Scene,
-        p: Vec3x4,
-        drawn: [(usize, Vec2); 4],
-    ) -> Self {
-        let p = p.rows(Vec4::ZERO);
-        let (mut exists, mut is_near, mut weighed) = ([false; 4], [false; 4], [false; 4]);
-        let (mut li, mut pdf) = ([Spectrum::BLACK; 4], [1.0; 4]);
-        let (mut wi, mut from) = ([Vec3::Z; 4], [Vec3::ZERO; 4]);
-        for (i, (number, u)) in drawn.into_iter().enumerate() {
-            let light = &*scene.lights()[number];
-            let Some(sample) = light.sample_li(p[i].truncate(), u) else { continue };
-            exists[i] = true;
-            li[i] = sample.li;
-            wi[i] = sample.wi;
-            pdf[i] = sample.pdf * transport.probability[number];
-            is_near[i] = sample.from.is_some();
-            from[i] = sample.from.unwrap_or_default();
-            weighed[i] = transport.finds && transport.visible[number];
-        }
-        let samples = LightSamplesX4 {
-            exists: BVec4A::from_array(exists),
-            li,
-            wi: Vec3x4::new(four(|i| &wi[i])),
-            pdf: Vec4::from_array(pdf),
-            from: Vec3x4::new(four(|i| &from[i])),
-            is_near: BVec4A::from_array(is_near),
-        };
-        Self { samples, weighed: BVec4A::from_array(weighed) }
+    pub fn of_any(rules: &PathRules, scene: &Scene, p: Vec3x4, drawn: [(usize, Vec2); 4]) -> Self {
+        let mut samples = one_by_one(p, |i, p| {
+            let (light, u) = drawn[i];
+            scene.lights()[light].sample_li(p, u)
+        });
+        samples.pdf *= Vec4::from_array(four(|i| rules.lights.probability(drawn[i].0)));
+        Self { samples, weighed: BVec4A::from_array(four(|i| rules.weighs(drawn[i].0))) }
     }
 
     /// Shadow rays, and what each carries, if there are any. Bit i of the mask is for the i-th.

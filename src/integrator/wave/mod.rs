@@ -1,7 +1,17 @@
 //! [`Wave`]: the samples that go through an integrator together.
 
-use super::paths::{Path, Paths};
-use super::plain::push_x4;
+mod paths;
+pub mod plain;
+mod plain_lights;
+mod rules;
+mod vertices;
+
+pub use paths::{Path, Paths};
+pub use rules::{PathRules, power_heuristic};
+pub use vertices::Vertices;
+
+use plain::push_x4;
+
 use crate::accel::Hit;
 use crate::bxdf::Arena;
 use crate::film::Filter;
@@ -31,6 +41,12 @@ pub mod dimension {
     /// The places on the second light, 2D, and on all others, where each is asked for: direct light, which has one
     /// reflection.
     pub(crate) const MORE_LIGHTS: u32 = of_depth(1);
+
+    /// Of a hit after so many reflections: the choice between lobes and their events, 1D, where there is one.
+    /// Far from all others, so that a surface that has none leaves them as they are.
+    pub(crate) const fn event(depth: u32) -> u32 {
+        1 << 31 | depth
+    }
 
     /// The first dimension of a hit after so many reflections.
     pub(crate) const fn of_depth(depth: u32) -> u32 {

@@ -1,0 +1,53 @@
+//! The contracts of integrators.
+
+use super::Wave;
+use crate::sampling::Sampler;
+use crate::scene::Scene;
+
+/// A way to compute how much light arrives along camera rays: plain settings, for any scene.
+///
+/// ```
+/// use lobe::Spectrum;
+/// use lobe::integrator::{Estimator, Integrator, Wave};
+/// use lobe::sampling::Sampler;
+/// use lobe::scene::Scene;
+///
+/// /// Shows how far away things are.
+/// struct Depth;
+///
+/// impl Integrator for Depth {
+///     fn prepare<'a>(&'a self, _: &'a Scene) -> Box<dyn Estimator + 'a> {
+///         Box::new(Depth)
+///     }
+/// }
+///
+/// impl Estimator for Depth {
+///     fn shade(&self, _: &dyn Sampler, wave: &mut Wave) {
+///         for (radiance, hit) in wave.radiance.iter_mut().zip(&wave.hits) {
+///             if hit.is_hit() {
+///                 *radiance = Spectrum::splat(hit.t);
+///             }
+///         }
+///     }
+/// }
+/// ```
+pub trait Integrator: Send + Sync {
+    /// Makes the integrator ready for a scene: what follows from the scene's lights and surfaces is found
+    /// once, before there are samples.
+    fn prepare<'a>(&'a self, scene: &'a Scene) -> Box<dyn Estimator + 'a>;
+}
+
+/// An integrator that was made ready for one scene. It works on many camera rays at once, a [`Wave`], so that
+/// rays can be traced in batches.
+pub trait Estimator: Send + Sync {
+    /// Adds to `wave.radiance` what arrives along each camera ray, whose hits are known already.
+    /// Samples come from `sampler` by the number in `wave.ids`, in dimensions from
+    /// [`dimension::FIRST_LIGHT`](super::dimension::FIRST_LIGHT) on.
+    fn shade(&self, sampler: &dyn Sampler, wave: &mut Wave);
+
+    /// The most rays towards lights that a sample has waiting at a time, so that room can be made for them
+    /// beforehand.
+    fn shadow_rays(&self) -> usize {
+        1
+    }
+}

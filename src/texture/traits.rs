@@ -1,0 +1,132 @@
+//! The contract of textures, and how materials hold them.
+
+use std::sync::Arc;
+
+use crate::interaction::SurfaceInteraction;
+use crate::spectrum::Spectrum;
+
+/// A map from points of surfaces to values of type `T`: `f32` for roughness, displacement and the
+/// like, [`Spectrum`] for colours. Values and functions of a hit are textures too.
+///
+/// ```
+/// use lobe::MatteMaterial;
+/// use lobe::Spectrum;
+/// use lobe::interaction::SurfaceInteraction;
+/// use lobe::texture::Texture;
+///
+/// /// Stripes along u, each of this width.
+/// struct Stripes(f32);
+///
+/// impl Texture<f32> for Stripes {
+///     fn evaluate(&self, si: &SurfaceInteraction) -> f32 {
+///         (si.uv().x / self.0).floor().rem_euclid(2.0)
+///     }
+/// }
+///
+/// let heights = |si: &SurfaceInteraction| Spectrum::splat(si.p().y.clamp(0.0, 1.0));
+/// let striped = MatteMaterial::new(heights).with_bump(Stripes(0.1));
+/// ```
+pub trait Texture<T>: Send + Sync {
+    /// The value at a hit. What it does not ask the interaction for is not computed.
+    fn evaluate(&self, si: &SurfaceInteraction) -> T;
+
+    /// The value if it is the same everywhere: it is then read without a call.
+    fn constant(&self) -> Option<T> {
+        None
+    }
+
+    /// The texture as a material holds it.
+    fn into_handle(self) -> TextureHandle<T>
+    where
+        Self: Sized + 'static,
+    {
+        self.constant()
+            .map_or_else(|| TextureHandle::Shared(Arc::new(self)), TextureHandle::Constant)
+    }
+}
+
+/// A texture as a material holds it: a constant in place, or anyone's texture behind a pointer.
+///
+/// It is made by [`Texture::into_handle`]. A constant is read without a call: `benches/shading.rs` has the
+/// figures.
+#[derive(Clone)]
+pub enum TextureHandle<T> {
+    /// The same value everywhere.
+    Constant(T),
+    /// A texture that may be shared between materials.
+    Shared(Arc<dyn Texture<T>>),
+}
+
+impl<T: Copy + Send + Sync + 'static> Texture<T> for TextureHandle<T> {
+    #[inline]
+    fn evaluate(&self, si: &SurfaceInteraction) -> T {
+        match self {
+            Self::Constant(value) => *value,
+            Self::Shared(texture) => texture.evaluate(si),
+        }
+    }
+
+    fn constant(&self) -> Option<T> {
+        match self {
+            Self::Constant(value) => Some(*value),
+            Self::Shared(_) => None,
+        }
+    }
+
+    fn into_handle(self) -> Self {
+        self
+    }
+}
+
+impl<T, F: Fn(&SurfaceInteraction) -> T + Send + Sync> Texture<T> for F {
+    #[inline]
+    fn evaluate(&self, si: &SurfaceInteraction) -> T {
+        self(si)
+    }
+}
+
+impl<T: 'static> Texture<T> for Arc<dyn Texture<T>> {
+    fn evaluate(&self, si: &SurfaceInteraction) -> T {
+        (**self).evaluate(si)
+    }
+
+    fn constant(&self) -> Option<T> {
+        (**self).constant()
+    }
+
+    fn into_handle(self) -> TextureHandle<T> {
+        (*self).constant().map_or(TextureHandle::Shared(self), TextureHandle::Constant)
+    }
+}
+
+impl<T: 'static, X: Texture<T> + 'static> Texture<T> for Arc<X> {
+    fn evaluate(&self, si: &SurfaceInteraction) -> T {
+        (**self).evaluate(si)
+    }
+
+    fn constant(&self) -> Option<T> {
+        (**self).constant()
+    }
+
+    fn into_handle(self) -> TextureHandle<T> {
+        (self as Arc<dyn Texture<T>>).into_handle()
+    }
+}
+
+/// A value stands for the texture that has it everywhere.
+macro_rules! values {
+    ($($value:ty as $t:ty),*) => {$(
+        impl Texture<$t> for $value {
+            #[inline]
+            fn evaluate(&self, _: &SurfaceInteraction) -> $t {
+                (*self).into()
+            }
+
+            fn constant(&self) -> Option<$t> {
+                Some((*self).into())
+            }
+        }
+    )*};
+}
+
+values!(f32 as f32, Spectrum as Spectrum, [f32; 3] as Spectrum);
