@@ -29,7 +29,7 @@ const EQUAL_PART: f32 = 0.1;
 ///   delta lobes): no lobe draws any above the surface and below the shading plane, and light sampling alone
 ///   would count them;
 /// - no lobe is asked about a `wo` that lies exactly along the surface;
-/// - an event's side follows from its directions, whatever its lobe says;
+/// - an event's side follows from its directions, whatever its lobe says, and so does whether it has an index;
 /// - nothing leaves it that is not finite and non-negative. What a lobe gave instead is counted in
 ///   [`rejected`](Bsdf::rejected).
 ///
@@ -170,7 +170,7 @@ impl<'a> Bsdf<'a> {
             self.reject();
             return None;
         }
-        self.correct_event(&mut sample, local_wo.z, local_wi.z);
+        self.correct_event(&mut sample, kind, local_wo.z, local_wi.z);
         let (world, local) = ([wo, sample.wi], [local_wo, local_wi]);
         if sample.is_specular() {
             sample.pdf *= shares.of(chosen);
@@ -227,15 +227,23 @@ impl<'a> Bsdf<'a> {
         self.guarded(self.matching(flags).map(|(lobe, _)| lobe.rho_hh(u1, uc, u2)).sum())
     }
 
-    /// The side of an event follows from its directions, and only what crosses the surface has an index.
+    /// Brings an event's flags in line with what is known otherwise: its side follows from its directions,
+    /// only what crosses the surface has an index, and a lobe that spreads light in one way alone gives no
+    /// events of another.
     #[inline]
-    fn correct_event(&self, sample: &mut BxdfSample, wo_z: f32, wi_z: f32) {
+    fn correct_event(&self, sample: &mut BxdfSample, kind: BxdfFlags, wo_z: f32, wi_z: f32) {
         let reflects = (wo_z > 0.0) == (wi_z > 0.0);
         let side = if reflects { BxdfFlags::REFLECTION } else { BxdfFlags::TRANSMISSION };
-        sample.flags = (sample.flags - SIDES) | side;
+        let spread = match kind - SIDES {
+            only if only.bits().is_power_of_two() && !sample.is_specular() => only,
+            _ => sample.flags - SIDES,
+        };
+        let told = sample.flags;
+        sample.flags = side | spread;
         if reflects {
             sample.eta = 1.0;
-        } else if !(sample.eta > 0.0 && sample.eta < f32::INFINITY) {
+        } else if !(sample.eta > 0.0 && sample.eta < f32::INFINITY && told.contains(side)) {
+            // Without the index roulette is noisy, but nothing is lost.
             self.reject();
             sample.eta = 1.0;
         }

@@ -16,3 +16,4 @@ mod lights;
 mod optics;
 mod rays;
 mod sampling;
+mod textures;

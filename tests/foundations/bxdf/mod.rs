@@ -2,6 +2,7 @@
 
 mod bsdf;
 mod contract;
+mod events;
 mod guard;
 mod sampling;
 

@@ -1,6 +1,7 @@
 //! Lights with an extent: what they say of themselves fits together, and gives the irradiance of the
 //! textbooks.
 
+mod choice;
 mod consistency;
 mod extremes;
 mod irradiance;
