@@ -27,42 +27,7 @@ use lobe::interaction::SurfaceInteraction;
 use lobe::sampling::cosine_hemisphere;
 use lobe::shape::read_obj;
 use lobe::{Camera, CameraSettings, TriangleMesh};
-
-// The sculptor of examples/sculpt_dragon, but for its command line.
-#[path = "../examples/sculpt_dragon/anatomy/mod.rs"]
-mod anatomy;
-#[path = "../examples/sculpt_dragon/curve.rs"]
-mod curve;
-#[path = "../examples/sculpt_dragon/decimate.rs"]
-mod decimate;
-#[path = "../examples/sculpt_dragon/field.rs"]
-mod field;
-#[path = "../examples/sculpt_dragon/halfedge.rs"]
-mod halfedge;
-#[path = "../examples/sculpt_dragon/lattice.rs"]
-mod lattice;
-#[path = "../examples/sculpt_dragon/mesh.rs"]
-mod mesh;
-#[path = "../examples/sculpt_dragon/obj.rs"]
-mod obj;
-#[path = "../examples/sculpt_dragon/parallel.rs"]
-mod parallel;
-#[path = "../examples/sculpt_dragon/quadric.rs"]
-mod quadric;
-#[path = "../examples/sculpt_dragon/relax.rs"]
-mod relax;
-#[path = "../examples/sculpt_dragon/scales.rs"]
-mod scales;
-#[path = "../examples/sculpt_dragon/sculpt.rs"]
-mod sculpt;
-#[path = "../examples/sculpt_dragon/sculpture.rs"]
-mod sculpture;
-#[path = "../examples/sculpt_dragon/shape.rs"]
-mod shape;
-#[path = "../examples/sculpt_dragon/tube.rs"]
-mod tube;
-#[path = "../examples/sculpt_dragon/verify.rs"]
-mod verify;
+use sculpt_dragon::{PROMISES, sculpt, write_obj};
 
 /// Pixels along each side of the image.
 const SIDE: u32 = 512;
@@ -119,14 +84,14 @@ fn large_dragon() -> TriangleMesh {
 /// Sculpts a dragon into a file, which appears when it is whole.
 fn sculpt_to(file: &Path, triangles: usize) -> Result<(), Box<dyn Error>> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let dragon = sculpt::sculpt(triangles, threads).map_err(|fault| fault.to_string())?;
+    let dragon = sculpt(triangles, threads).map_err(|fault| fault.to_string())?;
     let unfinished: PathBuf = file.with_extension("unfinished");
     let mut out = BufWriter::new(fs::File::create(&unfinished)?);
-    obj::write(&mut out, &dragon.mesh, &dragon.normals)?;
+    write_obj(&mut out, &dragon.mesh, &dragon.normals)?;
     out.flush()?;
     fs::rename(unfinished, file)?;
     let quality = dragon.quality;
-    println!("{}: {}; worst quality {quality:.3}", file.display(), verify::PROMISES);
+    println!("{}: {}; worst quality {quality:.3}", file.display(), PROMISES);
     Ok(())
 }
 

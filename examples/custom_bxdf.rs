@@ -1,6 +1,8 @@
-//! A reflection model of one's own: a Phong lobe over a diffuse base, on the dragon.
+//! A reflection model of one's own: a Phong lobe over a diffuse base, on a torus.
 //!
 //! `cargo run --release --example custom_bxdf [FILE.png]`
+
+mod torus;
 
 use std::f32::consts::{PI, TAU};
 use std::path::Path;
@@ -12,7 +14,6 @@ use lobe::glam::{Affine3A, Vec2, Vec3};
 use lobe::interaction::SurfaceInteraction;
 use lobe::material::Material;
 use lobe::scene::{IntegratorSettings, SamplerKind, SamplerSettings};
-use lobe::shape::read_obj;
 use lobe::{CameraSettings, PointLight, RenderOptions, Scene, Spectrum, render};
 
 /// Light spread around the mirror direction r: f = R (n + 2)/(2π) (r · wi)ⁿ, the modified Phong model of
@@ -82,9 +83,8 @@ impl Material for Lacquer {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = std::env::args().nth(1).unwrap_or("custom_bxdf.png".into());
-    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
-    let mut dragon = read_obj(&assets.join("dragon.obj"))?.mesh;
-    dragon.transform(&Affine3A::from_translation(Vec3::new(0.0, -1.45, 0.0)));
+    let mut torus = torus::torus(1.2, 0.5, 128);
+    torus.transform(&Affine3A::from_rotation_x(-0.6));
 
     let gloss = PhongLobe { r: Spectrum::splat(0.4), exponent: 60.0 };
     let scene = Scene::builder()
@@ -97,7 +97,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .integrator(IntegratorSettings::direct())
         .sampler(SamplerSettings { kind: SamplerKind::Stratified, spp: 16, ..Default::default() })
         .material("lacquer", Lacquer { base: Spectrum::new(0.05, 0.3, 0.2), gloss })
-        .shape("dragon", dragon, "lacquer")
+        .shape("torus", torus, "lacquer")
         .light(PointLight::new(Vec3::new(-4.0, 8.0, -10.0), Spectrum::splat(150.0 * PI)))
         .build()?;
     let rendered = render(&scene, &RenderOptions::default())?;

@@ -1,6 +1,8 @@
-//! Textures of one's own: a checkered floor with ripples around the dragon.
+//! Textures of one's own: a checkered floor with ripples around a torus.
 //!
 //! `cargo run --release --example custom_texture [FILE.png]`
+
+mod torus;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -9,7 +11,6 @@ use lobe::film::{Display, Metadata, write_png};
 use lobe::glam::{Affine3A, Vec2, Vec3};
 use lobe::interaction::SurfaceInteraction;
 use lobe::scene::{IntegratorSettings, SamplerKind, SamplerSettings};
-use lobe::shape::read_obj;
 use lobe::texture::Texture;
 use lobe::{
     CameraSettings, MatteMaterial, PointLight, RenderOptions, Scene, Spectrum, TriangleMesh, render,
@@ -40,9 +41,8 @@ impl Texture<f32> for Ripples {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = std::env::args().nth(1).unwrap_or("custom_texture.png".into());
-    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
-    let mut dragon = read_obj(&assets.join("dragon.obj"))?.mesh;
-    dragon.transform(&Affine3A::from_translation(Vec3::new(0.0, -2.0, 0.0)));
+    let mut torus = torus::torus(1.2, 0.4, 128);
+    torus.transform(&Affine3A::from_translation(Vec3::new(0.0, -1.6, 0.0)));
     let floor = TriangleMesh {
         positions: [(-6, 6), (6, 6), (-6, -6), (6, -6)]
             .map(|(x, z)| Vec3::new(x as f32, -2.0, z as f32))
@@ -65,7 +65,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .sampler(SamplerSettings { kind: SamplerKind::Stratified, spp: 16, ..Default::default() })
         .material("jade", MatteMaterial::new([0.1, 0.5, 0.25]).with_sigma(20.0))
         .material("pond", MatteMaterial::new(checkers).with_bump(ripples))
-        .shape("dragon", dragon, "jade")
+        .shape("torus", torus, "jade")
         .shape("floor", floor, "pond")
         .light(PointLight::new(Vec3::new(-2.0, 6.0, -7.0), Spectrum::splat(250.0)))
         .build()?;

@@ -22,6 +22,7 @@
 pub mod accel;
 pub mod bxdf;
 mod camera;
+mod clock;
 pub mod film;
 pub mod geometry;
 pub mod integrator;

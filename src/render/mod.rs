@@ -9,8 +9,9 @@ mod worker;
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use crate::clock::Stopwatch;
 use crate::film::{Film, FilmContents, FilmError, Picture, Variance};
 use crate::integrator::{self, Counters, Integrator};
 use crate::sampling::{
@@ -31,6 +32,7 @@ pub struct RenderOptions<'a> {
     pub spp: Option<u32>,
     /// Renders in passes, each with as many samples as all before it, and in the time that is left smaller ones, until
     /// none would end in time. How many samples that makes depends on the machine.
+    /// On `wasm32-unknown-unknown`, which has no clock, there is no limit of time.
     pub time: Option<Duration>,
     /// Whether to keep normal, depth and albedo of the first hits, the number of samples, and the variance of each
     /// pixel.
@@ -82,7 +84,7 @@ pub struct Rendered {
     pub non_finite: u64,
     /// How many threads took part.
     pub threads: usize,
-    /// Wall-clock time in seconds.
+    /// Wall-clock time in seconds; 0 on `wasm32-unknown-unknown`, which has no clock.
     pub seconds: f64,
 }
 
@@ -154,11 +156,12 @@ fn render_sets(
     settings: &SamplerSettings,
     options: &RenderOptions,
 ) -> Result<Rendered, RenderError> {
-    let start = Instant::now();
+    let start = Stopwatch::start();
     let film = scene.film();
     let (spp, sets) = (settings.spp, settings.sets());
-    let limit = if options.spp.is_none() && options.time.is_some() { u32::MAX } else { spp };
-    let mut passes = Passes::new(limit / sets, options.time);
+    let time = options.time.filter(|_| Stopwatch::HAS_CLOCK);
+    let limit = if options.spp.is_none() && time.is_some() { u32::MAX } else { spp };
+    let mut passes = Passes::new(limit / sets, time);
     let variance = match options.layers {
         true => Variance::suiting(sampler.is_correlated(), sets),
         false => Variance::None,
@@ -180,7 +183,7 @@ fn render_sets(
         samples_per_pixel: passes.done() * sets,
         non_finite: film.non_finite(),
         threads,
-        seconds: start.elapsed().as_secs_f64(),
+        seconds: start.seconds(),
     })
 }
 

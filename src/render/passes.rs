@@ -1,20 +1,22 @@
 //! [`Passes`]: which samples of a set are taken together.
 
 use std::ops::Range;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+
+use crate::clock::Stopwatch;
 
 /// The passes of a render: all samples at once, or as many powers of two as time allows.
 pub struct Passes {
     limit: u32,
     time: Option<Duration>,
-    start: Instant,
+    start: Stopwatch,
     done: u32,
 }
 
 impl Passes {
     /// Up to `limit` samples in a set, within `time` from now on. The first pass is taken in any case.
     pub fn new(limit: u32, time: Option<Duration>) -> Self {
-        Self { limit: limit.max(1), time, start: Instant::now(), done: 0 }
+        Self { limit: limit.max(1), time, start: Stopwatch::start(), done: 0 }
     }
 
     /// How many samples of each set the passes had so far.
@@ -26,7 +28,7 @@ impl Passes {
     pub fn next(&mut self) -> Option<Range<u32>> {
         let size = match self.time {
             None => self.limit - self.done,
-            Some(time) => self.fitting(self.start.elapsed().as_secs_f64(), time.as_secs_f64()),
+            Some(time) => self.fitting(self.start.seconds(), time.as_secs_f64()),
         };
         let pass = self.done..self.done + size;
         self.done = pass.end;

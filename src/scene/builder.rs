@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use std::time::Instant;
 
 use super::{Emission, FilmSettings, IntegratorSettings, SamplerSettings, Scene, Shape};
 use crate::accel::Accel;
 use crate::camera::{Camera, CameraError, CameraSettings};
+use crate::clock::Stopwatch;
 use crate::film::{Display, Filter, FilterError, FilterSampler, Window};
 use crate::light::{AreaLight, Light};
 use crate::material::{Material, MatteMaterial};
@@ -216,7 +216,7 @@ impl SceneBuilder {
             return Err(SceneError::TooManyTriangles(triangles));
         }
         let is_plain = shapes.iter().all(|shape| shape.plain.is_some());
-        let start = Instant::now();
+        let start = Stopwatch::start();
         let accel = Accel::build(&meshes);
         Ok(Scene {
             camera,
@@ -230,7 +230,7 @@ impl SceneBuilder {
             lights,
             is_plain,
             accel,
-            build_seconds: start.elapsed().as_secs_f64(),
+            build_seconds: start.seconds(),
         })
     }
 }

@@ -1,9 +1,8 @@
 //! [`Method`]: a way to render a scene.
 
-use std::time::Instant;
-
 use super::super::{CompareError, Errors, Image};
 use super::{Reference, Run};
+use crate::clock::Stopwatch;
 use crate::render::{RenderError, RenderOptions, Rendered, render_as};
 use crate::scene::{IntegratorSettings, SamplerSettings, Scene};
 
@@ -63,9 +62,9 @@ impl<'a> Method<'a> {
     /// # Errors
     /// Those of the rendering.
     pub fn render(&self, spp: u32, seed: u64) -> Result<(Image, [f64; 2]), RenderError> {
-        let start = Instant::now();
+        let start = Stopwatch::start();
         let rendered = (self.render)(spp, seed)?;
-        let all = start.elapsed().as_secs_f64();
+        let all = start.seconds();
         let set_up = self.build + (all - rendered.seconds).max(0.0);
         Ok((Image::from(&rendered.picture), [set_up, rendered.seconds]))
     }

@@ -12,11 +12,11 @@ mod tree;
 mod value;
 
 use std::path::Path;
-use std::time::Instant;
 
 pub use error::{Place, Problem, SceneFileError};
 
 use super::{IntegratorSettings, SamplerSettings, Scene};
+use crate::clock::Stopwatch;
 use crate::shape::ObjReport;
 use document::Document;
 
@@ -44,10 +44,10 @@ pub struct LoadReport {
 /// If the file cannot be read, or for what [`parse_scene`] refuses. The messages name the file by
 /// `path`.
 pub fn read_scene(path: &Path, overrides: &[&str]) -> Result<LoadedScene, SceneFileError> {
-    let start = Instant::now();
+    let start = Stopwatch::start();
     let text = read_text(path)?;
     let mut loaded = parse_scene(path, &text, overrides)?;
-    loaded.report.seconds = start.elapsed().as_secs_f64() - loaded.scene.build_seconds();
+    loaded.report.seconds = start.seconds() - loaded.scene.build_seconds();
     Ok(loaded)
 }
 
@@ -159,10 +159,10 @@ pub fn parse_scene(
     text: &str,
     overrides: &[&str],
 ) -> Result<LoadedScene, SceneFileError> {
-    let start = Instant::now();
+    let start = Stopwatch::start();
     let document = Document::parse(path, text, overrides)?;
     let description = document.place(describe::describe(&document))?;
     let (scene, meshes) = document.place(build::build(description, &document))?;
-    let seconds = start.elapsed().as_secs_f64() - scene.build_seconds();
+    let seconds = start.seconds() - scene.build_seconds();
     Ok(LoadedScene { scene, report: LoadReport { seconds, meshes } })
 }
