@@ -20,13 +20,14 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use lobe::TriangleMesh;
 use lobe::accel::{Accel, Hit};
+use lobe::camera::{Camera, PerspectiveCamera, PerspectiveSettings};
 use lobe::geometry::{Frame, Ray};
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::interaction::SurfaceInteraction;
 use lobe::sampling::cosine_hemisphere;
 use lobe::shape::read_obj;
-use lobe::{Camera, CameraSettings, TriangleMesh};
 use sculpt_dragon::{PROMISES, sculpt, write_obj};
 
 /// Pixels along each side of the image.
@@ -114,15 +115,17 @@ fn floor() -> TriangleMesh {
 
 /// One ray for each pixel, tile after tile.
 fn camera_rays() -> Vec<Ray> {
-    let settings = CameraSettings { eye: EYE, look_at: Vec3::ZERO, ..CameraSettings::default() };
-    let camera = Camera::new(&settings, UVec2::splat(SIDE)).expect("the settings are sound");
+    let settings =
+        PerspectiveSettings { eye: EYE, look_at: Vec3::ZERO, ..PerspectiveSettings::default() };
+    let camera =
+        PerspectiveCamera::new(&settings, UVec2::splat(SIDE)).expect("the settings are sound");
     let tiles = SIDE / 8;
     (0..SIDE * SIDE)
         .map(|i| {
             let (tile, pixel) = (i / 64, i % 64);
             let corner = 8 * UVec2::new(tile % tiles, tile / tiles);
             let pixel = corner + UVec2::new(pixel % 8, pixel / 8);
-            camera.generate_ray(pixel, lattice_point(i as usize), || Vec2::ZERO)
+            camera.generate_ray(pixel, lattice_point(i as usize), Vec2::ZERO)
         })
         .collect()
 }

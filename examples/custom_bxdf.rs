@@ -14,7 +14,10 @@ use lobe::glam::{Affine3A, Vec2, Vec3};
 use lobe::interaction::SurfaceInteraction;
 use lobe::material::Material;
 use lobe::scene::{IntegratorSettings, SamplerKind, SamplerSettings};
-use lobe::{CameraSettings, PointLight, RenderOptions, Scene, Spectrum, render};
+use lobe::{
+    FilmSettings, PerspectiveSettings, PointLight, RenderOptions, RenderSettings, Scene, Spectrum,
+    View, render,
+};
 
 /// Light spread around the mirror direction r: f = R (n + 2)/(2π) (r · wi)ⁿ, the modified Phong model of
 /// Lafortune and Willems 1994, which is reciprocal and keeps energy.
@@ -88,19 +91,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let gloss = PhongLobe { r: Spectrum::splat(0.4), exponent: 60.0 };
     let scene = Scene::builder()
-        .camera(CameraSettings {
-            eye: Vec3::new(-3.0, 1.5, -3.0),
-            look_at: Vec3::ZERO,
-            fov: 65.0,
-            ..CameraSettings::default()
-        })
-        .integrator(IntegratorSettings::direct())
-        .sampler(SamplerSettings { kind: SamplerKind::Stratified, spp: 16, ..Default::default() })
         .material("lacquer", Lacquer { base: Spectrum::new(0.05, 0.3, 0.2), gloss })
         .shape("torus", torus, "lacquer")
         .light(PointLight::new(Vec3::new(-4.0, 8.0, -10.0), Spectrum::splat(150.0 * PI)))
         .build()?;
-    let rendered = render(&scene, &RenderOptions::default())?;
+    let camera = PerspectiveSettings {
+        eye: Vec3::new(-3.0, 1.5, -3.0),
+        look_at: Vec3::ZERO,
+        fov: 65.0,
+        ..PerspectiveSettings::default()
+    };
+    let view = View::perspective(&camera, FilmSettings::default())?;
+    let sampler =
+        SamplerSettings { kind: SamplerKind::Stratified, spp: 16, ..SamplerSettings::default() };
+    let settings = RenderSettings { sampler, integrator: IntegratorSettings::direct() };
+    let rendered = render(&scene, &view, &settings, &RenderOptions::default())?;
     write_png(Path::new(&file), &rendered.picture, Display::Srgb, &Metadata::default())?;
     println!("wrote {file} in {:.2} s", rendered.seconds);
     Ok(())

@@ -13,7 +13,8 @@ use lobe::interaction::SurfaceInteraction;
 use lobe::scene::{IntegratorSettings, SamplerKind, SamplerSettings};
 use lobe::texture::Texture;
 use lobe::{
-    CameraSettings, MatteMaterial, PointLight, RenderOptions, Scene, Spectrum, TriangleMesh, render,
+    FilmSettings, MatteMaterial, PerspectiveSettings, PointLight, RenderOptions, RenderSettings,
+    Scene, Spectrum, TriangleMesh, View, render,
 };
 
 /// Squares of unit size in the plane across y.
@@ -55,21 +56,23 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let checkers = Arc::new(Checkers(Spectrum::splat(0.7), Spectrum::new(0.1, 0.15, 0.3)));
     let ripples = Arc::new(Ripples { height: 0.02, per_unit: 20.0 });
     let scene = Scene::builder()
-        .camera(CameraSettings {
-            eye: Vec3::new(-3.0, 1.5, -3.0),
-            look_at: Vec3::new(0.0, -0.8, 0.0),
-            fov: 75.0,
-            ..CameraSettings::default()
-        })
-        .integrator(IntegratorSettings::direct())
-        .sampler(SamplerSettings { kind: SamplerKind::Stratified, spp: 16, ..Default::default() })
         .material("jade", MatteMaterial::new([0.1, 0.5, 0.25]).with_sigma(20.0))
         .material("pond", MatteMaterial::new(checkers).with_bump(ripples))
         .shape("torus", torus, "jade")
         .shape("floor", floor, "pond")
         .light(PointLight::new(Vec3::new(-2.0, 6.0, -7.0), Spectrum::splat(250.0)))
         .build()?;
-    let rendered = render(&scene, &RenderOptions::default())?;
+    let camera = PerspectiveSettings {
+        eye: Vec3::new(-3.0, 1.5, -3.0),
+        look_at: Vec3::new(0.0, -0.8, 0.0),
+        fov: 75.0,
+        ..PerspectiveSettings::default()
+    };
+    let view = View::perspective(&camera, FilmSettings::default())?;
+    let sampler =
+        SamplerSettings { kind: SamplerKind::Stratified, spp: 16, ..SamplerSettings::default() };
+    let settings = RenderSettings { sampler, integrator: IntegratorSettings::direct() };
+    let rendered = render(&scene, &view, &settings, &RenderOptions::default())?;
     write_png(Path::new(&file), &rendered.picture, Display::Srgb, &Metadata::default())?;
     println!("wrote {file} in {:.2} s", rendered.seconds);
     Ok(())

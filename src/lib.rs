@@ -8,12 +8,12 @@
 //! - [`bxdf`], reflection models and their sum at a hit, [`bxdf::Bsdf`];
 //! - [`shape`], triangle meshes and OBJ files; [`interaction`], what is known about a hit;
 //! - [`texture`], values over a surface; [`material`], which turns them into lobes; [`light`];
-//! - [`accel`], rays against all triangles; [`Camera`]; [`film`], sums of samples, PNG and EXR;
-//! - [`scene`], what there is to render; [`integrator`], how light is computed; [`render`](mod@render), the loop;
+//! - [`accel`], rays against all triangles; [`camera`]; [`film`], sums of samples, PNG and EXR;
+//! - [`scene`], what is rendered and how it is seen; [`integrator`], how light is computed; [`render`](mod@render), the loop;
 //! - [`metrics`], how far an image is from another one.
 //!
 //! Traits are the doors for other crates: [`bxdf::BxDF`], [`texture::Texture`], [`material::Material`],
-//! [`light::Light`], [`sampling::Sampler`] and [`integrator::Integrator`]. What most callers need stands at the
+//! [`light::Light`], [`camera::Camera`], [`sampling::Sampler`] and [`integrator::Integrator`]. What most callers need stands at the
 //! root. Lengths are in scene units, angles in the unit that each item names, and radiance is in
 //! W / (m² sr) if a scene unit is a metre.
 #![warn(missing_docs)]
@@ -21,7 +21,7 @@
 
 pub mod accel;
 pub mod bxdf;
-mod camera;
+pub mod camera;
 mod clock;
 pub mod film;
 pub mod geometry;
@@ -37,12 +37,12 @@ pub mod shape;
 mod spectrum;
 pub mod texture;
 
-pub use camera::{Camera, CameraError, CameraSettings};
+pub use camera::PerspectiveSettings;
 pub use glam;
 pub use light::PointLight;
 pub use material::MatteMaterial;
 pub use render::{RenderOptions, render};
-pub use scene::Scene;
+pub use scene::{FilmSettings, RenderSettings, Scene, View};
 pub use shape::TriangleMesh;
 pub use spectrum::Spectrum;
 

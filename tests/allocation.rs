@@ -10,13 +10,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, TransportMode};
 use lobe::film::Filter;
-use lobe::glam::{UVec2, Vec3};
+use lobe::glam::Vec3;
 use lobe::interaction::SurfaceInteraction;
 use lobe::light::SkyLight;
 use lobe::material::Material;
 use lobe::scene::{IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings};
-use lobe::{PointLight, RenderOptions, Spectrum, render};
-use scenes::ball_over_floor;
+use lobe::{FilmSettings, PointLight, RenderOptions, RenderSettings, Spectrum, View, render};
+use scenes::{ball_over_floor, chapter_camera};
 
 /// The system's allocator, counting.
 struct Counting;
@@ -90,14 +90,14 @@ fn rendering_allocates_nothing_after_set_up() {
         (IntegratorSettings::path(6), SamplerKind::Sobol),
         (IntegratorSettings::path(6), SamplerKind::BlueNoise),
     ] {
-        let scene = ball_over_floor(UVec2::new(100, 80))
-            .sampler(SamplerSettings { kind, spp: 16, ..Default::default() })
-            .integrator(integrator)
+        let sampler = SamplerSettings { kind, spp: 16, ..Default::default() };
+        let film = FilmSettings { filter: Filter::gaussian(), ..FilmSettings::new(100, 80) };
+        let view = View::perspective(&chapter_camera(), film).unwrap();
+        let scene = ball_over_floor()
             .material("red", ForeignMaterial)
             .light(PointLight::new(Vec3::new(10.0, 10.0, -10.0), Spectrum::splat(900.0)))
             .light(PointLight::new(Vec3::new(-5.0, 3.0, 1.0), Spectrum::splat(20.0)))
             .light(SkyLight::new(Spectrum::splat(0.1)))
-            .filter(Filter::gaussian())
             .build()
             .unwrap();
         // (tiles done, allocations by then), the first and the latest.
@@ -119,7 +119,8 @@ fn rendering_allocates_nothing_after_set_up() {
             progress: Some(&progress),
             ..RenderOptions::default()
         };
-        render(&scene, &options).unwrap();
+        let settings = RenderSettings { sampler, integrator };
+        render(&scene, &view, &settings, &options).unwrap();
         let [first, last] = *seen.lock().unwrap();
         assert!(first.0 == 30 && last.0 == 130, "{first:?}, {last:?}");
         let allocations = last.1 - first.1;

@@ -7,11 +7,11 @@ use std::f64::consts::PI;
 
 use lobe::glam::{DVec3, UVec2, Vec3};
 use lobe::integrator::ChapterIntegrator;
-use lobe::render::render_with;
+use lobe::render::{Sampling, render_with};
 use lobe::{
-    CameraSettings, MatteMaterial, PointLight, RenderOptions, Scene, Spectrum, TriangleMesh,
+    MatteMaterial, PerspectiveSettings, PointLight, RenderOptions, Scene, Spectrum, TriangleMesh,
 };
-use scenes::{Middle, chapter_camera, floor};
+use scenes::{Middle, chapter_camera, floor, view};
 
 const LIGHT: DVec3 = DVec3::new(10.0, 10.0, -10.0);
 const KD: [f64; 3] = [0.2, 0.3, 0.9];
@@ -20,25 +20,25 @@ const RESOLUTION: UVec2 = UVec2::new(100, 80);
 /// The picture of one mesh with the floor's colour, one ray through the middle of each pixel.
 fn picture(
     mesh: TriangleMesh,
-    camera: CameraSettings,
+    camera: PerspectiveSettings,
     light: DVec3,
     highlight: bool,
 ) -> Vec<Spectrum> {
     let scene = Scene::builder()
-        .camera(camera)
-        .resolution(RESOLUTION.x, RESOLUTION.y)
         .material("blue", MatteMaterial::new(KD.map(|k| k as f32)))
         .shape("floor", mesh, "blue")
         .light(PointLight::new(light.as_vec3(), Spectrum::splat(900.0)))
         .build()
         .unwrap();
     let integrator = ChapterIntegrator { highlight };
-    render_with(&scene, &integrator, &Middle, &RenderOptions::default()).unwrap().picture.color
+    let (view, sampling) = (view(&camera, RESOLUTION), Sampling::new(&Middle, 1));
+    let rendered = render_with(&scene, &view, &integrator, sampling, &RenderOptions::default());
+    rendered.unwrap().picture.color
 }
 
 /// Where the ray through the middle of a pixel meets the plane y = -2, by the definition of PBRT's
 /// camera in f64: x to the right of the image is up × view, and 90 degrees span the shorter side.
-fn on_floor(camera: &CameraSettings, column: u32, row: u32) -> Option<(DVec3, DVec3)> {
+fn on_floor(camera: &PerspectiveSettings, column: u32, row: u32) -> Option<(DVec3, DVec3)> {
     let [eye, look_at, up] = [camera.eye, camera.look_at, camera.up].map(DVec3::from);
     let view = (look_at - eye).normalize();
     let right = up.cross(view).normalize();
@@ -56,7 +56,7 @@ fn on_floor(camera: &CameraSettings, column: u32, row: u32) -> Option<(DVec3, DV
 /// makes sure that the floor is in the picture.
 fn compare(
     color: &[Spectrum],
-    camera: &CameraSettings,
+    camera: &PerspectiveSettings,
     light: DVec3,
     tolerance: f64,
     factor: impl Fn(DVec3, DVec3) -> f64,
@@ -96,7 +96,7 @@ fn floor_is_three_cos_kd_over_pi_squared() {
 #[test]
 fn floor_has_two_sides() {
     let light = DVec3::new(10.0, -14.0, -10.0);
-    let camera = CameraSettings { eye: Vec3::new(-3.0, -5.5, -3.0), ..chapter_camera() };
+    let camera = PerspectiveSettings { eye: Vec3::new(-3.0, -5.5, -3.0), ..chapter_camera() };
     let color = picture(floor(-2.0, 6.0), camera, light, false);
     compare(&color, &camera, light, TOLERANCE, |_, _| 1.0);
 }
@@ -118,7 +118,7 @@ fn floor_may_be_wound_either_way() {
 /// fail when `Bsdf::side` and the default pdf take everything for reflection.
 #[test]
 fn floor_is_black_from_the_side_away_from_the_light() {
-    let below = CameraSettings { eye: Vec3::new(0.0, -5.0, -1.0), ..chapter_camera() };
+    let below = PerspectiveSettings { eye: Vec3::new(0.0, -5.0, -1.0), ..chapter_camera() };
     assert!(on_floor(&below, 50, 40).is_some(), "the camera does not see the floor");
     let color = picture(floor(-2.0, 6.0), below, LIGHT, false);
     assert!(color.iter().all(|c| c.is_black()));

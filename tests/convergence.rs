@@ -11,10 +11,13 @@ use lobe::light::SkyLight;
 use lobe::metrics::convergence::{
     Bias, Curve, Distrust, Method, Other, Pool, Reference, Run, Study, front,
 };
-use lobe::render::{render_as, render_with};
+use lobe::render::{Sampling, render_with};
 use lobe::sampling::{IndependentSampler, SampleId, Sampler};
 use lobe::scene::{IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings};
-use lobe::{CameraSettings, MatteMaterial, RenderOptions, Scene, Spectrum, TriangleMesh};
+use lobe::{
+    FilmSettings, MatteMaterial, PerspectiveSettings, RenderOptions, RenderSettings, Scene,
+    Spectrum, TriangleMesh, View, render,
+};
 
 const SIZE: UVec2 = UVec2::new(40, 36);
 const SEEDS: u64 = 8;
@@ -36,19 +39,21 @@ fn scene() -> Scene {
         ..TriangleMesh::default()
     };
     Scene::builder()
-        .camera(CameraSettings {
-            eye: Vec3::new(0.3, 2.5, -2.6),
-            look_at: Vec3::ZERO,
-            ..Default::default()
-        })
-        .resolution(SIZE.x, SIZE.y)
-        .integrator(IntegratorSettings::direct())
         .material("clay", MatteMaterial::new([0.6, 0.3, 0.2]))
         .shape("floor", floor, "clay")
         .shape("pyramid", pyramid, "clay")
         .light(SkyLight::new(Spectrum::splat(1.0)))
         .build()
         .unwrap()
+}
+
+fn view() -> View {
+    let camera = PerspectiveSettings {
+        eye: Vec3::new(0.3, 2.5, -2.6),
+        look_at: Vec3::ZERO,
+        ..Default::default()
+    };
+    View::perspective(&camera, FilmSettings::new(SIZE.x, SIZE.y)).unwrap()
 }
 
 /// Draws the parts of a reference, from seeds that no method has.
@@ -62,7 +67,8 @@ fn reference(scene: &Scene) -> Reference {
             replicates: 1,
         };
         let integrator = IntegratorSettings::Direct { strategy: LightStrategy::Light };
-        let rendered = render_as(scene, &sampler, &integrator, &RenderOptions::default()).unwrap();
+        let settings = RenderSettings { sampler, integrator };
+        let rendered = render(scene, &view(), &settings, &RenderOptions::default()).unwrap();
         pool.add(&rendered.picture.color);
     }
     Reference::new(&pool, SIZE)
@@ -72,8 +78,10 @@ fn reference(scene: &Scene) -> Reference {
 fn method<'a>(scene: &'a Scene, name: &str, wrong: Option<&'a dyn Integrator>) -> Method<'a> {
     let right = DirectIntegrator::new(scene, LightStrategy::Auto);
     Method::new(name, scene.build_seconds(), move |spp, seed| {
-        let options = RenderOptions { spp: Some(spp), ..RenderOptions::default() };
-        render_with(scene, wrong.unwrap_or(&right), &IndependentSampler::new(seed), &options)
+        let sampler = IndependentSampler::new(seed);
+        let sampling = Sampling::new(&sampler, spp);
+        let integrator = wrong.unwrap_or(&right);
+        render_with(scene, &view(), integrator, sampling, &RenderOptions::default())
     })
 }
 

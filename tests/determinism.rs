@@ -8,8 +8,11 @@ use std::time::Duration;
 use lobe::film::{Filter, Metadata, Picture, Window, write_exr};
 use lobe::glam::{UVec2, Vec3};
 use lobe::light::SkyLight;
-use lobe::scene::{Emission, IntegratorSettings, SamplerKind, SamplerSettings, SceneBuilder};
-use lobe::{CameraSettings, PointLight, RenderOptions, Spectrum, TriangleMesh, render};
+use lobe::scene::{Emission, IntegratorSettings, SamplerKind, SamplerSettings};
+use lobe::{
+    FilmSettings, PerspectiveSettings, PointLight, RenderOptions, RenderSettings, Scene, Spectrum,
+    TriangleMesh, View, render,
+};
 use scenes::{ball_over_floor, chapter_camera};
 
 const SAMPLERS: [SamplerKind; 4] =
@@ -17,28 +20,38 @@ const SAMPLERS: [SamplerKind; 4] =
 
 const RESOLUTION: UVec2 = UVec2::new(53, 37);
 
-/// A scene that uses all there is: a lens, a wide filter, lights of all kinds, reflections, sets of samples, layers.
-fn scene(kind: SamplerKind) -> SceneBuilder {
+/// Lights of all kinds. What is rendered uses all there is: also a lens, a wide filter, reflections, sets of samples,
+/// layers.
+fn scene() -> Scene {
     let lamp = TriangleMesh::parallelogram(Vec3::new(1.2, 1.5, -1.0), Vec3::X, Vec3::Z);
-    ball_over_floor(RESOLUTION)
-        .camera(CameraSettings { lens_radius: 0.2, focal_distance: 4.0, ..chapter_camera() })
-        .filter(Filter::gaussian())
-        .sampler(SamplerSettings { kind, spp: 6, seed: 7, ..Default::default() })
-        .integrator(IntegratorSettings::path(5))
+    ball_over_floor()
         .lamp("lamp", lamp, Emission { radiance: Spectrum::splat(3.0), two_sided: true })
         .light(SkyLight::new(Spectrum::new(0.1, 0.2, 0.3)))
         .light(PointLight::new(Vec3::new(10.0, 10.0, -10.0), Spectrum::splat(900.0)))
         .light(PointLight::new(Vec3::new(-5.0, 3.0, 1.0), Spectrum::new(0.0, 20.0, 40.0)))
+        .build()
+        .unwrap()
 }
 
-fn picture(builder: SceneBuilder, threads: usize, tile_size: u32) -> Picture {
+fn view(crop: Option<Window>) -> View {
+    let camera = PerspectiveSettings { lens_radius: 0.2, focal_distance: 4.0, ..chapter_camera() };
+    let film = FilmSettings { resolution: RESOLUTION, crop, ..FilmSettings::default() };
+    View::perspective(&camera, FilmSettings { filter: Filter::gaussian(), ..film }).unwrap()
+}
+
+fn settings(kind: SamplerKind, spp: u32, seed: u64) -> RenderSettings {
+    let sampler = SamplerSettings { kind, spp, seed, ..Default::default() };
+    RenderSettings { sampler, integrator: IntegratorSettings::path(5) }
+}
+
+fn picture(view: &View, settings: &RenderSettings, threads: usize, tile_size: u32) -> Picture {
     let options = RenderOptions {
         threads: NonZeroUsize::new(threads),
         tile_size,
         layers: true,
         ..RenderOptions::default()
     };
-    render(&builder.build().unwrap(), &options).unwrap().picture
+    render(&scene(), view, settings, &options).unwrap().picture
 }
 
 /// Seen to fail with pixels counted from the corner of their tile.
@@ -52,7 +65,7 @@ fn threads_and_tiles_do_not_matter() {
             [(1, 16), (2, 16), (7, 16), (1, 1), (2, 7), (7, 64), (2, 100_000)]
         {
             let path = folder.join(format!("{threads}-{tile_size}.exr"));
-            let picture = picture(scene(kind), threads, tile_size);
+            let picture = picture(&view(None), &settings(kind, 6, 7), threads, tile_size);
             write_exr(&path, &picture, &Metadata::default()).unwrap();
             let bytes = std::fs::read(&path).unwrap();
             let expected = expected.get_or_insert_with(|| bytes.clone());
@@ -69,9 +82,10 @@ fn threads_and_tiles_do_not_matter() {
 #[test]
 fn crop_is_a_part_of_the_whole() {
     for kind in SAMPLERS {
-        let whole = picture(scene(kind), 2, 16);
+        let settings = settings(kind, 6, 7);
+        let whole = picture(&view(None), &settings, 2, 16);
         let window = Window { min: UVec2::new(11, 5), max: UVec2::new(40, 36) };
-        let crop = picture(scene(kind).crop(window), 2, 7);
+        let crop = picture(&view(Some(window)), &settings, 2, 7);
         assert_eq!(crop.color.len(), window.area());
         let whole_layers = whole.layers.unwrap();
         let crop_layers = crop.layers.unwrap();
@@ -103,10 +117,9 @@ fn crop_is_a_part_of_the_whole() {
 #[test]
 fn passes_add_up_to_one() {
     for kind in SAMPLERS {
-        let scene = || scene(kind).sampler(SamplerSettings { kind, spp: 16, ..Default::default() });
         let rendered = |time| {
             let options = RenderOptions { time, spp: Some(16), layers: true, ..Default::default() };
-            render(&scene().build().unwrap(), &options).unwrap()
+            render(&scene(), &view(None), &settings(kind, 16, 0), &options).unwrap()
         };
         let (one, many) = (rendered(None), rendered(Some(Duration::from_secs(1 << 20))));
         assert_eq!((one.samples_per_pixel, many.samples_per_pixel), (16, 16));
@@ -123,10 +136,8 @@ fn passes_add_up_to_one() {
 /// of the hash.
 #[test]
 fn seed_decides() {
-    let with = |seed| {
-        let sampler = SamplerSettings { spp: 2, seed, ..Default::default() };
-        picture(scene(SamplerKind::Independent).sampler(sampler), 2, 16).color
-    };
+    let with =
+        |seed| picture(&view(None), &settings(SamplerKind::Independent, 2, seed), 2, 16).color;
     assert_eq!(with(1), with(1));
     assert_ne!(with(1), with(2));
 }

@@ -7,12 +7,13 @@ use std::f64::consts::PI;
 
 use lobe::glam::{DVec3, UVec2, Vec3};
 use lobe::integrator::DirectIntegrator;
-use lobe::render::render_with;
-use lobe::scene::LightStrategy;
+use lobe::render::{Sampling, render_with};
+use lobe::scene::{IntegratorSettings, LightStrategy};
 use lobe::{
-    CameraSettings, MatteMaterial, PointLight, RenderOptions, Scene, Spectrum, TriangleMesh, render,
+    MatteMaterial, PerspectiveSettings, PointLight, RenderOptions, Scene, Spectrum, TriangleMesh,
+    render,
 };
-use scenes::{Middle, ball_over_floor, floor};
+use scenes::{Middle, ball_over_floor, chapter_view, floor, independent, view};
 
 const R: [f64; 3] = [0.6, 0.3, 0.9];
 const I: f64 = 50.0;
@@ -22,11 +23,11 @@ const SIZE: u32 = 65;
 /// (0, 3, 0) with a light at (1, 2, 0.5); everything `scale` times as large and then moved by `shift`.
 fn plane(scale: f32, shift: Vec3, blocker: Option<TriangleMesh>) -> Vec<Spectrum> {
     let place = |p: Vec3| p * scale + shift;
-    let camera = CameraSettings {
+    let camera = PerspectiveSettings {
         eye: place(Vec3::new(0.0, 3.0, 0.0)),
         look_at: place(Vec3::ZERO),
         up: Vec3::Z,
-        ..CameraSettings::default()
+        ..PerspectiveSettings::default()
     };
     let moved = |mut mesh: TriangleMesh| {
         mesh.positions.iter_mut().for_each(|p| *p = place(*p));
@@ -34,8 +35,6 @@ fn plane(scale: f32, shift: Vec3, blocker: Option<TriangleMesh>) -> Vec<Spectrum
     };
     let intensity = I as f32 * scale * scale;
     let mut builder = Scene::builder()
-        .camera(camera)
-        .resolution(SIZE, SIZE)
         .material("plane", MatteMaterial::new(R.map(|r| r as f32)))
         .shape("plane", moved(floor(0.0, 4.0)), "plane")
         .light(PointLight::new(place(Vec3::new(1.0, 2.0, 0.5)), Spectrum::splat(intensity)));
@@ -45,8 +44,9 @@ fn plane(scale: f32, shift: Vec3, blocker: Option<TriangleMesh>) -> Vec<Spectrum
     let scene = builder.build().unwrap();
     render_with(
         &scene,
+        &view(&camera, UVec2::splat(SIZE)),
         &DirectIntegrator::new(&scene, LightStrategy::Auto),
-        &Middle,
+        Sampling::new(&Middle, 1),
         &RenderOptions::default(),
     )
     .unwrap()
@@ -153,12 +153,13 @@ fn shadow_is_where_the_blocker_says() {
 fn two_lights_add_up() {
     let lights = [Vec3::new(10.0, 10.0, -10.0), Vec3::new(-8.0, 6.0, -2.0)];
     let with = |lights: &[Vec3]| {
-        let mut builder = ball_over_floor(UVec2::new(40, 30));
-        builder = builder.integrator(lobe::scene::IntegratorSettings::direct());
+        let mut builder = ball_over_floor();
         for &position in lights {
             builder = builder.light(PointLight::new(position, Spectrum::splat(300.0)));
         }
-        render(&builder.build().unwrap(), &RenderOptions::default()).unwrap()
+        let view = chapter_view(UVec2::new(40, 30));
+        let settings = independent(64, IntegratorSettings::direct());
+        render(&builder.build().unwrap(), &view, &settings, &RenderOptions::default()).unwrap()
     };
     let (first, second, both) = (with(&lights[..1]), with(&lights[1..]), with(&lights));
     assert_eq!(both.non_finite, 0);

@@ -9,7 +9,7 @@ use lobe::light::{DistantLight, SkyLight};
 use lobe::material::Material;
 use lobe::scene::{Emission, IntegratorSettings, LightStrategy, SceneBuilder};
 use lobe::{MatteMaterial, PointLight, RenderOptions, Spectrum, TriangleMesh, render};
-use scenes::ball_over_floor;
+use scenes::{ball_over_floor, chapter_view, independent};
 
 /// A matte surface that the scene cannot know for one.
 struct Disguised(MatteMaterial);
@@ -26,19 +26,18 @@ impl Material for Disguised {
     }
 }
 
-fn scene(integrator: IntegratorSettings) -> SceneBuilder {
-    ball_over_floor(UVec2::new(61, 43))
-        .integrator(integrator)
+fn scene() -> SceneBuilder {
+    ball_over_floor()
         .light(PointLight::new(Vec3::new(10.0, 10.0, -10.0), Spectrum::splat(900.0)))
         .light(PointLight::new(Vec3::new(-5.0, 3.0, 1.0), Spectrum::new(0.0, 20.0, 40.0)))
 }
 
 /// With lights that rays can meet.
-fn lit_scene(integrator: IntegratorSettings) -> SceneBuilder {
+fn lit_scene() -> SceneBuilder {
     let lamp = TriangleMesh::parallelogram(Vec3::new(1.2, 1.5, -1.0), Vec3::X * 2.0, Vec3::Z * 1.5);
     let emission = Emission { radiance: Spectrum::new(4.0, 4.0, 2.0), two_sided: true };
     let sun = DistantLight::new(Vec3::new(-0.6, 0.8, 0.0), Spectrum::splat(0.5)).unwrap();
-    scene(integrator)
+    scene()
         .glowing_shape("lamp", lamp, "red", emission)
         .light(SkyLight::new(Spectrum::new(0.1, 0.2, 0.3)))
         .light(sun)
@@ -64,15 +63,17 @@ fn shading_four_hits_at_once_changes_no_bit() {
     ] {
         for scene in [scene, lit_scene] {
             let colors = |builder: SceneBuilder| {
-                render(&builder.build().unwrap(), &RenderOptions::default()).unwrap().picture.color
+                let (scene, view) = (builder.build().unwrap(), chapter_view(UVec2::new(61, 43)));
+                let settings = independent(64, integrator);
+                render(&scene, &view, &settings, &RenderOptions::default()).unwrap().picture.color
             };
             let red = || Disguised(MatteMaterial::new([0.8, 0.1, 0.2]));
             let blue = || Disguised(MatteMaterial::new([0.2, 0.3, 0.9]));
-            let plain = colors(scene(integrator));
+            let plain = colors(scene());
             assert!(plain.iter().any(|color| !color.is_black()));
-            let mixed = colors(scene(integrator).material("red", red()));
+            let mixed = colors(scene().material("red", red()));
             assert!(plain == mixed, "{integrator:?}: one of two materials disguised");
-            let both = scene(integrator).material("red", red()).material("blue", blue());
+            let both = scene().material("red", red()).material("blue", blue());
             assert!(plain == colors(both), "{integrator:?}: both materials disguised");
         }
     }

@@ -12,32 +12,38 @@ use lobe::integrator::DirectIntegrator;
 use lobe::interaction::{Shading, SurfaceInteraction};
 use lobe::light::{BoundingSphere, Light, LightSample};
 use lobe::material::Material;
-use lobe::render::{RenderError, Rendered, render_with};
-use lobe::scene::{IntegratorSettings, LightStrategy, SamplerSettings, SceneBuilder};
+use lobe::render::{Rendered, Sampling, render_with};
+use lobe::scene::{IntegratorSettings, LightStrategy, SceneBuilder};
 use lobe::texture::Texture;
-use lobe::{CameraSettings, MatteMaterial, PointLight, RenderOptions, Scene, Spectrum, render};
-use scenes::{Middle, ball_over_floor, floor};
+use lobe::{
+    MatteMaterial, PerspectiveSettings, PointLight, RenderOptions, RenderSettings, Scene, Spectrum,
+    View, render,
+};
+use scenes::{Middle, ball_over_floor, chapter_view, floor, independent, view};
 
-/// A floor at y = -2, seen straight from above over 2 × 2 of its units.
-fn from_above(material: MatteMaterial) -> SceneBuilder {
-    Scene::builder()
-        .camera(CameraSettings {
-            eye: Vec3::ZERO,
-            look_at: Vec3::NEG_Y,
-            up: Vec3::Z,
-            fov: 2.0 * 0.5_f32.atan().to_degrees(),
-            ..CameraSettings::default()
-        })
-        .resolution(16, 16)
-        .integrator(IntegratorSettings::direct())
-        .sampler(SamplerSettings { spp: 4, ..Default::default() })
-        .material("floor", material)
-        .shape("floor", floor(-2.0, 6.0), "floor")
+/// A floor at y = -2.
+fn floor_of(material: MatteMaterial) -> SceneBuilder {
+    Scene::builder().material("floor", material).shape("floor", floor(-2.0, 6.0), "floor")
 }
 
-fn rendered(builder: SceneBuilder) -> Rendered {
+/// Looks from the origin straight down, on 2 × 2 units of the floor.
+fn from_above() -> View {
+    let camera = PerspectiveSettings {
+        look_at: Vec3::NEG_Y,
+        up: Vec3::Z,
+        fov: 2.0 * 0.5_f32.atan().to_degrees(),
+        ..PerspectiveSettings::default()
+    };
+    view(&camera, UVec2::splat(16))
+}
+
+fn settings() -> RenderSettings {
+    independent(4, IntegratorSettings::direct())
+}
+
+fn rendered(scene: SceneBuilder, view: &View) -> Rendered {
     let options = RenderOptions { layers: true, ..RenderOptions::default() };
-    render(&builder.build().unwrap(), &options).unwrap()
+    render(&scene.build().unwrap(), view, &settings(), &options).unwrap()
 }
 
 /// NaN on one half of the floor.
@@ -54,7 +60,7 @@ impl Texture<Spectrum> for Half {
 #[test]
 fn reflectances_that_are_none_are_counted() {
     let light = PointLight::new(Vec3::ZERO, Spectrum::WHITE);
-    let half = rendered(from_above(MatteMaterial::new(Arc::new(Half))).light(light));
+    let half = rendered(floor_of(MatteMaterial::new(Arc::new(Half))).light(light), &from_above());
     assert_eq!(half.counters.rejected, 2 * 16 * 8 * 4);
     assert_eq!(half.non_finite, 0);
     for (place, color) in half.picture.color.iter().enumerate() {
@@ -67,7 +73,7 @@ fn reflectances_that_are_none_are_counted() {
 #[test]
 fn radiance_that_is_none_is_counted() {
     let light = PointLight::new(Vec3::ZERO, Spectrum::splat(f32::INFINITY));
-    let bright = rendered(from_above(MatteMaterial::new([0.5; 3])).light(light));
+    let bright = rendered(floor_of(MatteMaterial::new([0.5; 3])).light(light), &from_above());
     assert_eq!(bright.non_finite, 16 * 16 * 4);
     assert!(bright.picture.color.iter().all(|color| color.is_black()));
 }
@@ -92,7 +98,8 @@ impl Material for NoFrame {
 /// film's test of first hits.
 #[test]
 fn first_hits_that_are_none_are_counted() {
-    let broken = rendered(from_above(MatteMaterial::new([0.5; 3])).material("floor", NoFrame));
+    let broken =
+        rendered(floor_of(MatteMaterial::new([0.5; 3])).material("floor", NoFrame), &from_above());
     assert_eq!(broken.non_finite, 16 * 16 * 4);
     assert!(broken.picture.layers.unwrap().normal.iter().all(|n| *n == Vec3::ZERO));
 }
@@ -100,11 +107,12 @@ fn first_hits_that_are_none_are_counted() {
 /// No more threads take part than there are tiles. Seen to fail with the number that was asked for.
 #[test]
 fn threads_that_took_part_are_told() {
-    let scene = from_above(MatteMaterial::new([0.5; 3])).build().unwrap();
+    let scene = floor_of(MatteMaterial::new([0.5; 3])).build().unwrap();
     for (asked, tile_size, expected) in [(7, 16, 1), (7, 8, 4), (2, 8, 2)] {
         let threads = std::num::NonZeroUsize::new(asked);
         let options = RenderOptions { threads, tile_size, ..RenderOptions::default() };
-        assert_eq!(render(&scene, &options).unwrap().threads, expected);
+        let rendered = render(&scene, &from_above(), &settings(), &options).unwrap();
+        assert_eq!(rendered.threads, expected);
     }
 }
 
@@ -112,7 +120,10 @@ fn threads_that_took_part_are_told() {
 /// the distance along the view, and with the albedo of Lambert's law divided by π.
 #[test]
 fn layers_hold_the_first_hits() {
-    let layers = rendered(from_above(MatteMaterial::new([0.2, 0.3, 0.9]))).picture.layers.unwrap();
+    let layers = rendered(floor_of(MatteMaterial::new([0.2, 0.3, 0.9])), &from_above())
+        .picture
+        .layers
+        .unwrap();
     for place in 0..256_u32 {
         let corner = UVec2::new(place % 16, place / 16);
         let distance = |p: UVec2| (p.as_vec2() / 8.0 - 1.0).extend(2.0).length();
@@ -129,10 +140,10 @@ fn layers_hold_the_first_hits() {
 /// Where nothing is hit, all layers are zero. Seen to fail with a missed ray's infinite distance added.
 #[test]
 fn layers_are_zero_where_nothing_is() {
-    let away = CameraSettings { look_at: Vec3::Y, ..CameraSettings::default() };
-    let away = CameraSettings { up: Vec3::Z, ..away };
-    let layers = rendered(from_above(MatteMaterial::new([1.0; 3])).camera(away)).picture.layers;
-    let layers = layers.unwrap();
+    let away =
+        PerspectiveSettings { look_at: Vec3::Y, up: Vec3::Z, ..PerspectiveSettings::default() };
+    let away = view(&away, UVec2::splat(16));
+    let layers = rendered(floor_of(MatteMaterial::new([1.0; 3])), &away).picture.layers.unwrap();
     assert!(layers.depth.iter().all(|depth| *depth == 0.0));
     assert!(layers.normal.iter().all(|normal| *normal == Vec3::ZERO));
 }
@@ -141,7 +152,7 @@ fn layers_are_zero_where_nothing_is() {
 /// late. Seen to fail with the request looked at only once, and with it looked at again at the end.
 #[test]
 fn cancelling_ends_a_render() {
-    let scene = ball_over_floor(UVec2::splat(64)).build().unwrap();
+    let (scene, view) = (ball_over_floor().build().unwrap(), chapter_view(UVec2::splat(64)));
     for (stop_at, expected_tiles) in [(1, 1), (5, 5), (64, 64)] {
         let cancel = AtomicBool::new(false);
         let tiles = AtomicU32::new(0);
@@ -157,13 +168,10 @@ fn cancelling_ends_a_render() {
             cancel: Some(&cancel),
             ..RenderOptions::default()
         };
-        let result = render(&scene, &options);
+        let rendered = render(&scene, &view, &settings(), &options).unwrap();
         assert_eq!(tiles.load(Ordering::Relaxed), expected_tiles);
-        if stop_at < 64 {
-            assert_eq!(result.err(), Some(RenderError::Cancelled), "stopped at {stop_at}");
-        } else {
-            result.unwrap();
-        }
+        assert_eq!(rendered.complete, stop_at == 64, "stopped at {stop_at}");
+        assert_eq!(rendered.empty_pixels, u64::from(64 - stop_at) * 64);
     }
 }
 
@@ -196,21 +204,19 @@ impl Light for Panel {
 #[test]
 fn lights_with_an_extent_are_sampled() {
     let spp = 1 << 16;
-    let tiny = CameraSettings {
+    let tiny = PerspectiveSettings {
         eye: Vec3::new(0.0, -1.0, 0.0),
         look_at: Vec3::new(0.0, -2.0, 0.0),
         up: Vec3::Z,
         fov: 0.01,
-        ..CameraSettings::default()
+        ..PerspectiveSettings::default()
     };
-    let scene = from_above(MatteMaterial::new([1.0; 3]))
-        .camera(tiny)
-        .resolution(1, 1)
-        .sampler(SamplerSettings { spp, seed: 5, ..Default::default() })
-        .light(Panel)
-        .build()
-        .unwrap();
-    let found = render(&scene, &RenderOptions::default()).unwrap().picture.color[0].to_array()[0];
+    let scene = floor_of(MatteMaterial::new([1.0; 3])).light(Panel).build().unwrap();
+    let mut settings = independent(spp, IntegratorSettings::direct());
+    settings.sampler.seed = 5;
+    let tiny = view(&tiny, UVec2::ONE);
+    let rendered = render(&scene, &tiny, &settings, &RenderOptions::default()).unwrap();
+    let found = rendered.picture.color[0].to_array()[0];
     let x = 1.0 / 1.5_f64;
     let root = (1.0 + x * x).sqrt();
     let expected = 4.0 / std::f64::consts::TAU * 2.0 * (x / root) * (x / root).atan();
@@ -224,17 +230,15 @@ fn lights_with_an_extent_are_sampled() {
 #[test]
 fn focus_may_be_anywhere() {
     for focal_distance in [1e-3, 1.0, 1e10, 1e20, 1e38] {
-        let camera = CameraSettings {
+        let camera = PerspectiveSettings {
             eye: Vec3::new(0.0, 2.0, 0.0),
             look_at: Vec3::ZERO,
             up: Vec3::Z,
             lens_radius: 1e-5,
             focal_distance,
-            ..CameraSettings::default()
+            ..PerspectiveSettings::default()
         };
         let scene = Scene::builder()
-            .camera(camera)
-            .resolution(4, 4)
             .material("floor", MatteMaterial::new([0.5; 3]))
             .shape("floor", floor(0.0, 100.0), "floor")
             .light(PointLight::new(Vec3::Y, Spectrum::WHITE))
@@ -242,8 +246,9 @@ fn focus_may_be_anywhere() {
             .unwrap();
         let rendered = render_with(
             &scene,
+            &view(&camera, UVec2::splat(4)),
             &DirectIntegrator::new(&scene, LightStrategy::Auto),
-            &Middle,
+            Sampling::new(&Middle, 1),
             &RenderOptions::default(),
         );
         let color = rendered.unwrap().picture.color;

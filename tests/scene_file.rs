@@ -6,7 +6,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lobe::Spectrum;
+use lobe::camera::{Camera, PerspectiveCamera};
 use lobe::film::{Display, Filter, Window};
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::light::Light;
@@ -14,6 +14,7 @@ use lobe::scene::{
     IntegratorSettings, LightStrategy, LoadedScene, SamplerKind, SceneFileError, parse_scene,
     read_scene,
 };
+use lobe::{PerspectiveSettings, RenderSettings, Spectrum, View};
 
 /// A folder of this test's own with a triangle in it.
 fn folder(test: &str) -> PathBuf {
@@ -87,24 +88,42 @@ obj = "triangle.obj"
 material = "cloth"
 "#;
 
+/// Asserts that a view has the camera of these settings, by its rays and by what it says of itself.
+#[track_caller]
+fn assert_camera(view: &View, settings: &PerspectiveSettings) {
+    let expected = PerspectiveCamera::new(settings, view.film().resolution).unwrap();
+    assert_eq!(view.camera().describe(), expected.describe());
+    for pixel in [UVec2::ZERO, UVec2::new(13, 7)] {
+        for lens in [Vec2::ZERO, Vec2::new(0.25, 0.75)] {
+            let ray = |camera: &dyn Camera| camera.generate_ray(pixel, Vec2::splat(0.5), lens);
+            assert_eq!(ray(view.camera()), ray(&expected));
+        }
+    }
+}
+
 #[test]
 fn a_file_gives_its_scene() {
     let path = folder("good").join("scene.toml");
     std::fs::write(&path, GOOD).unwrap();
-    let LoadedScene { scene, report } = read_scene(&path, &[]).unwrap();
+    let LoadedScene { scene, view, settings, report } = read_scene(&path, &[]).unwrap();
 
-    let camera = scene.camera_settings();
-    assert_eq!(camera.eye, Vec3::new(-3.0, 1.5, -3.0));
-    assert_eq!((camera.look_at, camera.up), (Vec3::ZERO, Vec3::Y));
-    assert_eq!((camera.fov, camera.lens_radius, camera.focal_distance), (60.0, 0.02, 3.0));
-    let film = scene.film();
+    let camera = PerspectiveSettings {
+        eye: Vec3::new(-3.0, 1.5, -3.0),
+        look_at: Vec3::ZERO,
+        fov: 60.0,
+        lens_radius: 0.02,
+        focal_distance: 3.0,
+        ..PerspectiveSettings::default()
+    };
+    assert_camera(&view, &camera);
+    let film = view.film();
     assert_eq!(film.resolution, UVec2::new(50, 40));
     assert_eq!(film.crop, Some(Window { min: UVec2::new(10, 0), max: UVec2::new(50, 30) }));
     assert_eq!(film.display, Display::Exposure);
-    let sampler = scene.sampler();
+    let RenderSettings { sampler, integrator } = settings;
     assert_eq!(sampler.kind, SamplerKind::Stratified);
     assert_eq!((sampler.spp, sampler.seed), (16, u64::MAX));
-    assert_eq!(*scene.integrator(), IntegratorSettings::Chapter { highlight: true });
+    assert_eq!(integrator, IntegratorSettings::Chapter { highlight: true });
     let light = scene.lights()[0].sample_li(Vec3::new(10.0, 10.0, 0.0), Default::default());
     assert_eq!(light.unwrap().li.to_array(), [9.0; 3]);
     // In the order of the file, not of the alphabet.
@@ -143,13 +162,13 @@ fn a_file_with_light_gives_its_scene() {
         emission = [4, 4, 4]
         translate = [0, 1, 0]
     "#;
-    let scene = parse(text, &[]).unwrap().scene;
-    assert_eq!(scene.film().filter, Filter::Gaussian { radius: 1.5, sigma: 0.4 });
-    let sampler = scene.sampler();
+    let LoadedScene { scene, view, settings, .. } = parse(text, &[]).unwrap();
+    assert_eq!(view.film().filter, Filter::Gaussian { radius: 1.5, sigma: 0.4 });
+    let RenderSettings { sampler, integrator } = settings;
     assert_eq!((sampler.kind, sampler.replicates), (SamplerKind::BlueNoise, 4));
     let path =
         IntegratorSettings::Path { max_depth: 9, roulette: false, strategy: LightStrategy::Mis };
-    assert_eq!(*scene.integrator(), path);
+    assert_eq!(integrator, path);
 
     let [sun, sky, lamp] = scene.lights() else { panic!("{} lights", scene.lights().len()) };
     let below = |light: &dyn Light| light.sample_li(Vec3::ZERO, Vec2::splat(0.5)).unwrap();
@@ -166,11 +185,10 @@ fn a_file_with_light_gives_its_scene() {
 fn everything_has_a_default_in_an_empty_file() {
     for text in ["", "\u{FEFF}", "[camera]\n[film]\n[sampler]\n[integrator]\n[shape]\n[light]\r\n"]
     {
-        let scene = parse(text, &[]).unwrap().scene;
-        assert_eq!(*scene.camera_settings(), Default::default());
-        assert_eq!(*scene.film(), Default::default());
-        assert_eq!(*scene.sampler(), Default::default());
-        assert_eq!(*scene.integrator(), Default::default());
+        let LoadedScene { scene, view, settings, .. } = parse(text, &[]).unwrap();
+        assert_camera(&view, &PerspectiveSettings::default());
+        assert_eq!(*view.film(), Default::default());
+        assert_eq!(settings, Default::default());
         assert_eq!(scene.shapes().count(), 0);
     }
 }
@@ -544,14 +562,17 @@ fn meshes_that_cannot_be_read() {
 fn overrides_replace_and_add_values() {
     let path = folder("overrides").join("scene.toml");
     let scene = |overrides: &[&str]| parse_scene(&path, GOOD, overrides).unwrap().scene;
-    assert_eq!(scene(&["camera.fov=40"]).camera_settings().fov, 40.0);
-    assert_eq!(scene(&["camera.fov=40", " camera . fov = 41 # "]).camera_settings().fov, 41.0);
-    assert_eq!(scene(&["sampler={seed=3}"]).sampler().seed, 3);
+    let camera =
+        |overrides: &[&str]| parse_scene(&path, GOOD, overrides).unwrap().view.camera().describe();
+    assert!(camera(&["camera.fov=40"]).contains(" 40 degrees"));
+    assert!(camera(&["camera.fov=40", " camera . fov = 41 # "]).contains(" 41 degrees"));
+    let seed = parse_scene(&path, GOOD, &["sampler={seed=3}"]).unwrap().settings.sampler.seed;
+    assert_eq!(seed, 3);
     // What the file leaves out: of a shape, and of a table that it has not got either.
     let scaled = scene(&["shape.z.scale=2", "shape.'a b'.translate=[0,0,1]"]);
     let places: Vec<_> = scaled.shapes().map(|(_, mesh)| mesh.positions[1]).collect();
     assert_eq!(places, [Vec3::new(2.0, -1.5, 0.0), Vec3::new(1.0, 0.0, 1.0)]);
-    assert_eq!(parse("", &["film.crop=[0,0,3,2]"]).unwrap().scene.film().window().area(), 6);
+    assert_eq!(parse("", &["film.crop=[0,0,3,2]"]).unwrap().view.film().window().area(), 6);
 }
 
 #[test]

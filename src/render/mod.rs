@@ -1,8 +1,9 @@
-//! Rendering: tiles on threads, progress, and an end on request.
+//! Rendering: [`render`] takes a scene, a view and settings, and gives a picture. Tiles go to threads; progress is
+//! reported, and a render can be cancelled without losing what it has.
 
 mod pass;
-mod passes;
 mod samples;
+mod schedule;
 mod tiles;
 mod worker;
 
@@ -17,30 +18,34 @@ use crate::integrator::{self, Counters, Integrator};
 use crate::sampling::{
     BlueNoiseSampler, IndependentSampler, Sampler, SobolSampler, StratifiedSampler,
 };
-use crate::scene::{IntegratorSettings, SamplerKind, SamplerSettings, Scene};
+use crate::scene::{RenderSettings, SamplerKind, SamplerSettings, Scene, SettingsError, View};
 use pass::Pass;
-use passes::Passes;
+use schedule::PassSchedule;
 
-/// How to render. Apart from `spp`, `time` and `layers` none of it changes what comes out.
+/// How to render. Apart from `spp`, `time`, `layers` and `cancel` none of it changes what comes out.
 #[derive(Clone, Copy)]
 pub struct RenderOptions<'a> {
     /// How many threads; as many as the machine has if there is no number.
     pub threads: Option<NonZeroUsize>,
     /// Columns and rows of a tile, at least 1.
     pub tile_size: u32,
-    /// Samples in each pixel, in place of the scene's; with `time` the most, which without a number have no limit.
+    /// Samples in each pixel, at least 1, in place of the settings'. With `time` it is the most, and without a number
+    /// there is no limit.
     pub spp: Option<u32>,
     /// Renders in passes, each with as many samples as all before it, and in the time that is left smaller ones, until
-    /// none would end in time. How many samples that makes depends on the machine.
-    /// On `wasm32-unknown-unknown`, which has no clock, there is no limit of time.
+    /// none is likely to end in time. How many samples that makes depends on the machine. `Duration::MAX` and a number
+    /// of samples give passes without a limit in time. On `wasm32-unknown-unknown`, which has no clock, there is none.
     pub time: Option<Duration>,
     /// Whether to keep normal, depth and albedo of the first hits, the number of samples, and the variance of each
     /// pixel.
     pub layers: bool,
-    /// Told after every tile, by the thread that rendered it, while the other threads cannot hand in
+    /// Called after every tile, by the thread that rendered it, while the other threads cannot hand in
     /// theirs: it should be quick.
     pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
-    /// Ends the render early once it is true; looked at before each tile.
+    /// Called after every pass, by the thread that called [`render`], with the picture so far. Without `time` there is
+    /// one pass. The next one begins when it returns.
+    pub on_pass: Option<&'a (dyn Fn(&Rendered) + Sync)>,
+    /// Ends the render early once it is true. It is looked at before each wave of about a thousand samples.
     pub cancel: Option<&'a AtomicBool>,
 }
 
@@ -53,6 +58,7 @@ impl Default for RenderOptions<'_> {
             time: None,
             layers: false,
             progress: None,
+            on_pass: None,
             cancel: None,
         }
     }
@@ -71,136 +77,179 @@ pub struct Progress {
     pub rays: u64,
 }
 
-/// What a render gives.
+/// What a render gives, complete or not.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Rendered {
-    /// The developed film.
+    /// The developed film. Each pixel is the mean of its own samples.
     pub picture: Picture,
-    /// What was done.
+    /// What was done, with the samples that a cancelled render took but could not finish a tile with.
     pub counters: Counters,
-    /// Samples taken in each pixel.
+    /// Samples of whole passes, the same number in each pixel. When a render is cancelled, pixels in tiles that its
+    /// last pass finished have more; [`Layers::samples`](crate::film::Layers::samples) tells how many.
     pub samples_per_pixel: u32,
+    /// Whether all samples were taken that were asked for, or that `time` allowed. It is false if the render was
+    /// cancelled, and for [`RenderOptions::on_pass`], since more may come.
+    pub complete: bool,
+    /// Pixels without any sample, which are black. Only a render that is cancelled in its first pass leaves some.
+    pub empty_pixels: u64,
     /// Samples that were left out because they were not finite.
     pub non_finite: u64,
     /// How many threads took part.
     pub threads: usize,
-    /// Wall-clock time in seconds; 0 on `wasm32-unknown-unknown`, which has no clock.
+    /// Wall-clock time in seconds.
     pub seconds: f64,
 }
 
 /// Why there is no picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RenderError {
-    /// The film cannot be had.
+    /// There is not enough memory for the film.
     #[error(transparent)]
     Film(#[from] FilmError),
-    /// The caller asked for an end.
-    #[error("the render was cancelled")]
-    Cancelled,
+    /// The settings ask for no samples.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
 }
 
-/// Renders a scene by its own settings.
+/// Renders a scene.
 ///
 /// The picture is the same, bit by bit, for any number of threads and any size of tiles. With
 /// [`RenderOptions::time`] that holds for the same number of samples.
 ///
 /// # Errors
-/// If there is not enough memory for the film, or if the caller cancels the render.
+/// If there is not enough memory for the film, or if the settings ask for no samples. A cancelled render is no error:
+/// see [`Rendered::complete`].
 ///
 /// ```
-/// use lobe::{RenderOptions, Scene, Spectrum, render};
+/// use lobe::scene::{FilmSettings, RenderSettings, View};
+/// use lobe::{PerspectiveSettings, RenderOptions, Scene, Spectrum, render};
 ///
-/// let scene = Scene::builder().resolution(8, 6).build()?;
-/// let rendered = render(&scene, &RenderOptions::default())?;
+/// let scene = Scene::builder().build()?;
+/// let view = View::perspective(&PerspectiveSettings::default(), FilmSettings::new(8, 6))?;
+/// let rendered = render(&scene, &view, &RenderSettings::default(), &RenderOptions::default())?;
 /// assert_eq!(rendered.picture.color, vec![Spectrum::BLACK; 48]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn render(scene: &Scene, options: &RenderOptions) -> Result<Rendered, RenderError> {
-    render_as(scene, scene.sampler(), scene.integrator(), options)
-}
-
-/// Renders a scene by other settings than its own.
-///
-/// # Errors
-/// As for [`render`].
-pub fn render_as(
+pub fn render(
     scene: &Scene,
-    sampler: &SamplerSettings,
-    integrator: &IntegratorSettings,
+    view: &View,
+    settings: &RenderSettings,
     options: &RenderOptions,
 ) -> Result<Rendered, RenderError> {
-    let settings = with_options(sampler, options);
-    let sampler = sampler_from_settings(scene, &settings);
-    let integrator = integrator::from_settings(integrator);
-    render_sets(scene, &*integrator, &*sampler, &settings, options)
+    let spp = options.spp.unwrap_or(settings.sampler.spp);
+    let settings =
+        RenderSettings { sampler: SamplerSettings { spp, ..settings.sampler }, ..*settings };
+    settings.sampler.check()?;
+    let sampler = sampler_from_settings(view, &settings.sampler);
+    let integrator = integrator::from_settings(&settings.integrator);
+    let sampling = Sampling { sampler: &*sampler, spp, sets: settings.sampler.sets() };
+    render_with(scene, view, &*integrator, sampling, options)
 }
 
-/// Renders a scene by an integrator and a sampler of the caller's. The scene's own settings of the sampler say how many
-/// samples there are, and in how many sets.
+/// A sampler, and how many of its samples a pixel gets.
+#[derive(Clone, Copy)]
+pub struct Sampling<'a> {
+    /// Where the samples come from.
+    pub sampler: &'a dyn Sampler,
+    /// Samples in each pixel, at least 1; [`RenderOptions::spp`] takes its place.
+    pub spp: u32,
+    /// Into how many independent sets they are divided, of `spp / sets` samples each. Of a correlated sampler the
+    /// variance is told from the means of sets, of which it takes at least two.
+    pub sets: u32,
+}
+
+impl<'a> Sampling<'a> {
+    /// `spp` samples in one set.
+    pub fn new(sampler: &'a dyn Sampler, spp: u32) -> Self {
+        Self { sampler, spp, sets: 1 }
+    }
+}
+
+/// Renders a scene by an integrator and a sampler of the caller's.
 ///
 /// # Errors
 /// As for [`render`].
 pub fn render_with(
     scene: &Scene,
+    view: &View,
     integrator: &dyn Integrator,
-    sampler: &dyn Sampler,
-    options: &RenderOptions,
-) -> Result<Rendered, RenderError> {
-    render_sets(scene, integrator, sampler, &with_options(scene.sampler(), options), options)
-}
-
-fn render_sets(
-    scene: &Scene,
-    integrator: &dyn Integrator,
-    sampler: &dyn Sampler,
-    settings: &SamplerSettings,
+    sampling: Sampling,
     options: &RenderOptions,
 ) -> Result<Rendered, RenderError> {
     let start = Stopwatch::start();
-    let film = scene.film();
-    let (spp, sets) = (settings.spp, settings.sets());
+    let Sampling { sampler, spp, sets } = sampling;
+    let (spp, sets) = (options.spp.unwrap_or(spp), sets.max(1));
+    if spp == 0 {
+        return Err(SettingsError::NoSamples.into());
+    }
     let time = options.time.filter(|_| Stopwatch::HAS_CLOCK);
     let limit = if options.spp.is_none() && time.is_some() { u32::MAX } else { spp };
-    let mut passes = Passes::new(limit / sets, time);
+    let mut schedule = PassSchedule::new(limit / sets, time);
     let variance = match options.layers {
         true => Variance::suiting(sampler.is_correlated(), sets),
         false => Variance::None,
     };
     let contents = FilmContents { variance, first_hits: options.layers };
-    let film = Film::new(film.resolution, film.window(), contents)?;
-    let shared = Mutex::new((film, Counters::default()));
+    let (resolution, window) = (view.film().resolution, view.film().window());
+    let area = window.area() as u64;
+    let shared = Mutex::new((Film::new(resolution, window, contents)?, Counters::default()));
+    let mut ended = Ended { samples_per_pixel: 0, complete: false, empty_pixels: area, threads: 0 };
+    let so_far = |ended: &Ended| {
+        let shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
+        let (film, counters) = &*shared;
+        Rendered {
+            picture: film.develop(),
+            counters: *counters,
+            samples_per_pixel: ended.samples_per_pixel,
+            complete: ended.complete,
+            empty_pixels: ended.empty_pixels,
+            non_finite: film.non_finite(),
+            threads: ended.threads,
+            seconds: start.seconds(),
+        }
+    };
     let estimator = integrator.prepare(scene);
     let estimator = &*estimator;
-    let mut threads = 0;
-    while let Some(indices) = passes.next() {
-        let pass = Pass { scene, estimator, sampler, options, indices, sets, contents };
-        threads = threads.max(pass.render(&shared)?);
+    loop {
+        let Some(indices) = schedule.next() else {
+            ended.complete = true;
+            break;
+        };
+        let samples_per_pixel = indices.end * sets;
+        let pass = Pass { scene, view, estimator, sampler, options, indices, sets, contents };
+        let pass = pass.render(&shared)?;
+        ended.threads = ended.threads.max(pass.threads);
+        ended.empty_pixels = ended.empty_pixels.min(area - pass.pixels);
+        if pass.pixels < area {
+            break;
+        }
+        ended.samples_per_pixel = samples_per_pixel;
+        if let Some(on_pass) = options.on_pass {
+            on_pass(&so_far(&ended));
+        }
     }
-    let (film, counters) = shared.into_inner().unwrap_or_else(PoisonError::into_inner);
-    Ok(Rendered {
-        picture: film.develop(),
-        counters,
-        samples_per_pixel: passes.done() * sets,
-        non_finite: film.non_finite(),
-        threads,
-        seconds: start.seconds(),
-    })
+    Ok(so_far(&ended))
 }
 
-/// The settings, with as many samples as the options say.
-fn with_options(settings: &SamplerSettings, options: &RenderOptions) -> SamplerSettings {
-    SamplerSettings { spp: options.spp.unwrap_or(settings.spp).max(1), ..*settings }
+/// What a render knows of itself beside its film and counters.
+struct Ended {
+    samples_per_pixel: u32,
+    complete: bool,
+    empty_pixels: u64,
+    threads: usize,
 }
 
 /// The sampler that the settings ask for.
-fn sampler_from_settings(scene: &Scene, settings: &SamplerSettings) -> Box<dyn Sampler> {
+fn sampler_from_settings(view: &View, settings: &SamplerSettings) -> Box<dyn Sampler> {
     let (seed, samples_per_set) = (settings.seed, settings.spp / settings.sets());
     match settings.kind {
         SamplerKind::Independent => Box::new(IndependentSampler::new(seed)),
         SamplerKind::Stratified => Box::new(StratifiedSampler::new(samples_per_set, seed)),
         SamplerKind::Sobol => Box::new(SobolSampler::new(seed)),
         SamplerKind::BlueNoise => {
-            Box::new(BlueNoiseSampler::new(scene.film().resolution, samples_per_set, seed))
+            Box::new(BlueNoiseSampler::new(view.film().resolution, samples_per_set, seed))
         }
     }
 }

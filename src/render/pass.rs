@@ -7,15 +7,16 @@ use std::sync::{Mutex, PoisonError};
 
 use super::tiles::Tiles;
 use super::worker::Worker;
-use super::{Progress, RenderError, RenderOptions};
-use crate::film::{Film, FilmContents};
+use super::{Progress, RenderOptions};
+use crate::film::{Film, FilmContents, FilmError};
 use crate::integrator::{Counters, Estimator};
 use crate::sampling::Sampler;
-use crate::scene::Scene;
+use crate::scene::{Scene, View};
 
 /// Samples that are taken of all pixels before any more are.
 pub struct Pass<'a> {
     pub scene: &'a Scene,
+    pub view: &'a View,
     pub estimator: &'a dyn Estimator,
     pub sampler: &'a dyn Sampler,
     pub options: &'a RenderOptions<'a>,
@@ -25,10 +26,23 @@ pub struct Pass<'a> {
     pub contents: FilmContents,
 }
 
+/// How far a pass came.
+pub struct PassEnd {
+    /// How many threads took part.
+    pub threads: usize,
+    /// Pixels of the tiles that were finished: all, unless the render was cancelled.
+    pub pixels: u64,
+}
+
 impl Pass<'_> {
-    /// Adds the samples of all tiles to the film, and returns how many threads did so.
-    pub fn render(&self, shared: &Mutex<(Film, Counters)>) -> Result<usize, RenderError> {
-        let tiles = Tiles::new(self.scene.film().window(), self.options.tile_size);
+    /// Whether the caller asked for an end.
+    pub fn is_cancelled(&self) -> bool {
+        self.options.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed))
+    }
+
+    /// Adds the samples of all tiles to the film, or of those that were finished when the render was cancelled.
+    pub fn render(&self, shared: &Mutex<(Film, Counters)>) -> Result<PassEnd, FilmError> {
+        let tiles = Tiles::new(self.view.film().window(), self.options.tile_size);
         let pixels = AtomicU64::new(0);
         let work = || self.work(&tiles, &pixels, shared);
         let threads = self.options.threads.or_else(|| std::thread::available_parallelism().ok());
@@ -45,32 +59,32 @@ impl Pass<'_> {
                 .map(|w| w.join().unwrap_or_else(|p| std::panic::resume_unwind(p)));
             theirs.fold(mine, Result::and).map(|()| threads)
         })?;
-        let all = self.scene.film().window().area() as u64;
-        if pixels.into_inner() < all { Err(RenderError::Cancelled) } else { Ok(threads) }
+        Ok(PassEnd { threads, pixels: pixels.into_inner() })
     }
 
-    /// One thread's share: tile after tile, until there are no more.
+    /// One thread's share: tile after tile, until there are no more or the render is cancelled.
     fn work(
         &self,
         tiles: &Tiles,
         pixels: &AtomicU64,
         shared: &Mutex<(Film, Counters)>,
-    ) -> Result<(), RenderError> {
-        let Self { scene, estimator, sampler, options, .. } = *self;
-        let mut worker = Worker::new(scene, estimator, sampler, options, self.sets, self.contents)?;
-        let cancelled = || options.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
-        while !cancelled() {
+    ) -> Result<(), FilmError> {
+        let mut worker = Worker::new(self)?;
+        while !self.is_cancelled() {
             let Some(tile) = tiles.next() else { break };
-            worker.render(tile, &self.indices);
+            let is_whole = worker.render(tile);
             // A poisoned lock means that another worker panicked, which ends the scope anyway.
             let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
             let (film, counters) = &mut *shared;
-            film.merge(worker.tile());
             counters.add(&worker.take_counters());
+            if !is_whole {
+                break;
+            }
+            film.merge(worker.tile());
             let done = pixels.fetch_add(tile.area() as u64, Ordering::Relaxed) + tile.area() as u64;
-            if let Some(progress) = options.progress {
+            if let Some(progress) = self.options.progress {
                 let samples = self.indices.start * self.sets;
-                let of = scene.film().window().area() as u64;
+                let of = self.view.film().window().area() as u64;
                 progress(Progress { pixels: done, of, samples, rays: counters.rays() });
             }
         }

@@ -1,77 +1,63 @@
 //! [`Worker`]: one thread's share of the rendering.
 
-use std::ops::Range;
+use glam::{UVec2, Vec2};
 
-use glam::UVec2;
-
-use super::RenderOptions;
+use super::pass::Pass;
 use super::samples::Samples;
 use crate::bxdf::BxdfFlags;
-use crate::film::{Film, FilmContents, FilmError, Window};
-use crate::integrator::{Counters, Estimator, Wave};
-use crate::sampling::{SampleId, Sampler};
-use crate::scene::Scene;
+use crate::film::{Film, FilmError, Window};
+use crate::integrator::{Counters, Wave};
+use crate::sampling::SampleId;
 
 /// How many samples go through the integrator together: enough for batches to pay, few enough for
 /// rays and hits to stay in the second-level cache.
 const WAVE: usize = 1024;
 
-/// Points for reflectances that have no closed form: a lattice over the unit square.
+/// How many points estimate a reflectance that has no closed form.
 const RHO_POINTS: usize = 16;
 
 /// Renders tiles. All of its memory is taken when it is made, apart from that of foreign lobes: the arena
 /// grows until it has met the hit that needs most.
 pub struct Worker<'a> {
-    scene: &'a Scene,
-    estimator: &'a dyn Estimator,
-    sampler: &'a dyn Sampler,
+    pass: &'a Pass<'a>,
     wave: Wave,
     tile: Film,
-    sets: u32,
     rho_choices: [f32; RHO_POINTS],
-    rho_points: [glam::Vec2; RHO_POINTS],
+    rho_points: [Vec2; RHO_POINTS],
 }
 
 impl<'a> Worker<'a> {
     /// A worker with room for the largest tile.
-    pub fn new(
-        scene: &'a Scene,
-        estimator: &'a dyn Estimator,
-        sampler: &'a dyn Sampler,
-        options: &RenderOptions,
-        sets: u32,
-        contents: FilmContents,
-    ) -> Result<Self, FilmError> {
-        let film = scene.film();
-        let size = film.window().size().min(UVec2::splat(options.tile_size.max(1)));
+    pub fn new(pass: &'a Pass<'a>) -> Result<Self, FilmError> {
+        let film = pass.view.film();
+        let size = film.window().size().min(UVec2::splat(pass.options.tile_size.max(1)));
         let largest = Window { min: UVec2::ZERO, max: size };
-        let tile = Film::new(film.resolution, largest, contents)?;
-        Ok(Self {
-            scene,
-            estimator,
-            sampler,
-            wave: Wave::with_capacity(WAVE, estimator.shadow_rays()),
-            tile,
-            sets,
-            rho_choices: std::array::from_fn(|i| (i as f32 * 0.754_877_7).fract()),
-            rho_points: lattice(),
-        })
+        let tile = Film::new(film.resolution, largest, pass.contents)?;
+        let wave = Wave::with_capacity(WAVE, pass.estimator.shadow_rays());
+        let rho_choices = std::array::from_fn(|i| (i as f32 * 0.754_877_7).fract());
+        Ok(Self { pass, wave, tile, rho_choices, rho_points: lattice() })
     }
 
-    /// Renders the samples whose indices are in `pass`, of each set of each pixel of a tile, wave by wave. Those of a
-    /// pixel are added in the order of set and index, so that its sum does not depend on how the image is cut.
-    pub fn render(&mut self, window: Window, pass: &Range<u32>) {
+    /// Renders the samples of the pass in a tile, wave by wave, and returns whether it took them all: it stops before
+    /// the next wave once the render is cancelled. The samples of a pixel are added in the order of set and index, so
+    /// that its sum does not depend on how the image is cut.
+    pub fn render(&mut self, window: Window) -> bool {
+        let Pass { scene, view, estimator, sampler, sets, ref indices, .. } = *self.pass;
         self.tile.reset(window);
-        let mut samples = Samples::new(window, self.sets, pass.clone());
+        let mut samples = Samples::new(window, sets, indices.clone());
         while !samples.is_empty() {
+            if self.pass.is_cancelled() {
+                return false;
+            }
             samples.fill(WAVE, &mut self.wave.ids);
-            self.wave.begin(self.scene, self.sampler);
-            self.estimator.shade(self.sampler, &mut self.wave);
+            self.wave.begin(scene, view, sampler);
+            estimator.shade(sampler, &mut self.wave);
             self.add_samples();
             if self.tile.has_layers() {
                 self.add_first_hits();
             }
         }
+        true
     }
 
     fn add_samples(&mut self) {
@@ -93,16 +79,16 @@ impl<'a> Worker<'a> {
         std::mem::take(&mut self.wave.counters)
     }
 
-    /// Normal, depth and albedo of what the camera rays hit. It shades every hit once more, which
+    /// Adds normal, depth and albedo of what the camera rays hit. It shades every hit once more, which
     /// only a render with layers pays for.
     fn add_first_hits(&mut self) {
-        let wave = &mut self.wave;
+        let (scene, wave) = (self.pass.scene, &mut self.wave);
         for ((id, ray), hit) in wave.ids.iter().zip(&wave.rays).zip(&wave.hits) {
             if !hit.is_hit() {
                 continue;
             }
-            let mut si = self.scene.interaction(ray, hit);
-            let bsdf = self.scene.bsdf(hit, &mut si, &wave.arena);
+            let mut si = scene.interaction(ray, hit);
+            let bsdf = scene.bsdf(hit, &mut si, &wave.arena);
             let (uc, u) = (&self.rho_choices, &self.rho_points);
             let albedo = bsdf.rho_hd(si.wo(), uc, u, BxdfFlags::all());
             wave.counters.rejected += u64::from(bsdf.rejected());
@@ -113,9 +99,9 @@ impl<'a> Worker<'a> {
 }
 
 /// A rank-1 lattice with the golden ratio as its step.
-fn lattice() -> [glam::Vec2; RHO_POINTS] {
+fn lattice() -> [Vec2; RHO_POINTS] {
     std::array::from_fn(|i| {
         let x = (i as f32 + 0.5) / RHO_POINTS as f32;
-        glam::Vec2::new(x, (i as f32 * 0.618_034).fract())
+        Vec2::new(x, (i as f32 * 0.618_034).fract())
     })
 }

@@ -1,13 +1,11 @@
-//! [`SceneBuilder`]: scenes without a file.
+//! [`SceneBuilder`]: a scene part by part.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::{Emission, FilmSettings, IntegratorSettings, SamplerSettings, Scene, Shape};
+use super::{Emission, Scene, Shape};
 use crate::accel::Accel;
-use crate::camera::{Camera, CameraError, CameraSettings};
 use crate::clock::Stopwatch;
-use crate::film::{Display, Filter, FilterError, FilterSampler, Window};
 use crate::light::{AreaLight, Light};
 use crate::material::{Material, MatteMaterial};
 use crate::shape::{MeshError, TriangleMesh};
@@ -16,22 +14,7 @@ use crate::spectrum::Spectrum;
 /// Why a scene cannot be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SceneError {
-    /// The camera cannot be built.
-    #[error(transparent)]
-    Camera(#[from] CameraError),
-    /// The part of the image to render is empty or sticks out.
-    #[error(
-        "the film's crop {corners:?} is empty or reaches beyond its resolution of {1} x {2}",
-        corners = [.0.min, .0.max].map(|corner| corner.to_array()).as_flattened()
-    )]
-    Crop(Window, u32, u32),
-    /// The filter covers nothing, or too much.
-    #[error(transparent)]
-    Filter(#[from] FilterError),
-    /// There is nothing to average.
-    #[error("the sampler's spp is 0: it has to be at least 1")]
-    NoSamples,
-    /// A shape is made of nothing that the scene knows.
+    /// A shape names a material that the scene does not have.
     #[error("shape {shape:?} wants material {material:?}, which the scene does not have")]
     UnknownMaterial {
         /// The shape's name.
@@ -55,63 +38,15 @@ struct NewShape {
     emission: Option<Emission>,
 }
 
-/// Collects a scene part by part, in any order, and checks it as a whole at the end.
+/// Collects the parts of a [`Scene`] in any order, and checks them at the end.
 #[derive(Default)]
 pub struct SceneBuilder {
-    camera: CameraSettings,
-    film: FilmSettings,
-    sampler: SamplerSettings,
-    integrator: IntegratorSettings,
     materials: BTreeMap<String, Arc<dyn Material>>,
     shapes: Vec<NewShape>,
     lights: Vec<Arc<dyn Light>>,
 }
 
 impl SceneBuilder {
-    /// Places the camera.
-    pub fn camera(self, camera: CameraSettings) -> Self {
-        Self { camera, ..self }
-    }
-
-    /// Sets all of the film.
-    pub fn film(self, film: FilmSettings) -> Self {
-        Self { film, ..self }
-    }
-
-    /// Sets the size of the image: columns and rows.
-    pub fn resolution(self, width: u32, height: u32) -> Self {
-        let film = FilmSettings { resolution: (width, height).into(), ..self.film };
-        self.film(film)
-    }
-
-    /// Renders only a part of the image.
-    pub fn crop(self, window: Window) -> Self {
-        let film = FilmSettings { crop: Some(window), ..self.film };
-        self.film(film)
-    }
-
-    /// Sets the reconstruction filter.
-    pub fn filter(self, filter: Filter) -> Self {
-        let film = FilmSettings { filter, ..self.film };
-        self.film(film)
-    }
-
-    /// Sets the curve for PNG files.
-    pub fn display(self, display: Display) -> Self {
-        let film = FilmSettings { display, ..self.film };
-        self.film(film)
-    }
-
-    /// Chooses the samples.
-    pub fn sampler(self, sampler: SamplerSettings) -> Self {
-        Self { sampler, ..self }
-    }
-
-    /// Chooses how light is computed.
-    pub fn integrator(self, integrator: IntegratorSettings) -> Self {
-        Self { integrator, ..self }
-    }
-
     /// Adds a material; one of the same name is replaced. One that is held elsewhere too comes in an [`Arc`].
     pub fn material(mut self, name: impl Into<String>, material: impl Material + 'static) -> Self {
         self.materials.insert(name.into(), material.into_arc());
@@ -161,31 +96,11 @@ impl SceneBuilder {
         self
     }
 
-    /// Checks camera, film and sampler, which can be done before there are meshes.
-    pub fn check(&self) -> Result<(), SceneError> {
-        self.checked_camera().map(drop)
-    }
-
-    fn checked_camera(&self) -> Result<Camera, SceneError> {
-        let FilmSettings { resolution, .. } = self.film;
-        let camera = Camera::new(&self.camera, resolution)?;
-        let window = self.film.window();
-        if window.min.cmpge(window.max).any() || window.max.cmpgt(resolution).any() {
-            return Err(SceneError::Crop(window, resolution.x, resolution.y));
-        }
-        self.film.filter.check()?;
-        if self.sampler.spp == 0 {
-            return Err(SceneError::NoSamples);
-        }
-        Ok(camera)
-    }
-
     /// Checks the scene and builds its tree.
     ///
     /// # Errors
-    /// The first setting, mesh or name that is wrong.
+    /// The first mesh or name that is wrong, or too many triangles.
     pub fn build(self) -> Result<Scene, SceneError> {
-        let camera = self.checked_camera()?;
         let mut shapes = Vec::with_capacity(self.shapes.len());
         let mut meshes = Vec::with_capacity(self.shapes.len());
         let mut lights = self.lights;
@@ -218,19 +133,6 @@ impl SceneBuilder {
         let is_plain = shapes.iter().all(|shape| shape.plain.is_some());
         let start = Stopwatch::start();
         let accel = Accel::build(&meshes);
-        Ok(Scene {
-            camera,
-            camera_settings: self.camera,
-            film: self.film,
-            sampler: self.sampler,
-            integrator: self.integrator,
-            shapes,
-            meshes,
-            filter: FilterSampler::new(self.film.filter)?,
-            lights,
-            is_plain,
-            accel,
-            build_seconds: start.seconds(),
-        })
+        Ok(Scene { shapes, meshes, lights, is_plain, accel, build_seconds: start.seconds() })
     }
 }

@@ -1,8 +1,12 @@
-//! Scenes: what there is to be rendered, and how.
+//! What is rendered, how it is seen, and how it is sampled and lit: [`Scene`], [`View`], [`RenderSettings`].
+//!
+//! None of the three knows the others. A scene is built once, which takes the time of its tree, and can then be rendered
+//! in any view with any settings.
 
 mod builder;
 mod file;
 mod settings;
+mod view;
 
 use std::sync::Arc;
 
@@ -11,28 +15,27 @@ pub use file::{
     LoadReport, LoadedScene, Place, Problem, SceneFileError, parse_scene, read_scene, read_settings,
 };
 pub use settings::{
-    Emission, FilmSettings, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings,
+    Emission, FilmSettings, IntegratorSettings, LightStrategy, RenderSettings, SamplerKind,
+    SamplerSettings, SettingsError,
 };
+pub use view::{View, ViewError};
 
 use glam::Vec3;
 
 use crate::accel::{Accel, Hit};
 use crate::bxdf::{Arena, Bsdf, LambertianReflection};
-use crate::camera::{Camera, CameraSettings};
-use crate::film::FilterSampler;
 use crate::geometry::Ray;
 use crate::interaction::{SurfaceInteraction, SurfacePlace};
 use crate::light::{BoundingSphere, Light};
 use crate::material::Material;
 use crate::shape::TriangleMesh;
 
-/// A checked scene, ready to be rendered. It is made by [`Scene::builder`], or read from a file by
-/// [`read_scene`].
+/// A checked scene, ready to be rendered: shapes, materials, lights, and the tree of all triangles. It is made by
+/// [`Scene::builder`], or read from a file by [`read_scene`].
 ///
 /// ```
 /// use lobe::glam::Vec3;
-/// use lobe::scene::{IntegratorSettings, Scene};
-/// use lobe::{CameraSettings, MatteMaterial, PointLight, Spectrum, TriangleMesh};
+/// use lobe::{MatteMaterial, PointLight, Scene, Spectrum, TriangleMesh};
 ///
 /// let floor = TriangleMesh {
 ///     positions: vec![Vec3::NEG_X, Vec3::X, Vec3::Z * 2.0],
@@ -40,9 +43,6 @@ use crate::shape::TriangleMesh;
 ///     ..TriangleMesh::default()
 /// };
 /// let scene = Scene::builder()
-///     .camera(CameraSettings { eye: Vec3::new(0.0, 2.0, -1.0), look_at: Vec3::Z, ..Default::default() })
-///     .resolution(64, 48)
-///     .integrator(IntegratorSettings::direct())
 ///     .material("clay", MatteMaterial::new([0.6, 0.3, 0.2]))
 ///     .shape("floor", floor, "clay")
 ///     .light(PointLight::new(Vec3::Y, Spectrum::splat(10.0)))
@@ -51,27 +51,22 @@ use crate::shape::TriangleMesh;
 /// # Ok::<(), lobe::scene::SceneError>(())
 /// ```
 pub struct Scene {
-    camera: Camera,
-    camera_settings: CameraSettings,
-    film: FilmSettings,
-    filter: FilterSampler,
-    sampler: SamplerSettings,
-    integrator: IntegratorSettings,
     shapes: Vec<Shape>,
     meshes: Vec<TriangleMesh>,
     lights: Vec<Arc<dyn Light>>,
+    /// Whether each shape has its one lobe in `plain`.
     is_plain: bool,
     accel: Accel,
     build_seconds: f64,
 }
 
-/// What there is to know of a mesh beside its triangles.
+/// A mesh's name, material and light.
 struct Shape {
     name: String,
     material: Arc<dyn Material>,
-    /// The number of the light that it is.
+    /// Index of its area light, if it emits.
     light: Option<usize>,
-    /// What it reflects, if that takes no more than its plane and this to know.
+    /// The constant lobe, if the shape is flat-shaded and has no other.
     plain: Option<LambertianReflection>,
 }
 
@@ -79,41 +74,6 @@ impl Scene {
     /// An empty scene to add to.
     pub fn builder() -> SceneBuilder {
         SceneBuilder::default()
-    }
-
-    /// The camera.
-    pub fn camera(&self) -> &Camera {
-        &self.camera
-    }
-
-    /// The camera's settings.
-    pub fn camera_settings(&self) -> &CameraSettings {
-        &self.camera_settings
-    }
-
-    /// The film's settings.
-    pub fn film(&self) -> &FilmSettings {
-        &self.film
-    }
-
-    /// The film's filter, ready to be sampled.
-    pub fn filter(&self) -> &FilterSampler {
-        &self.filter
-    }
-
-    /// The sampler's settings.
-    pub fn sampler(&self) -> &SamplerSettings {
-        &self.sampler
-    }
-
-    /// Changes the sampler's settings: they take no part in what is built.
-    pub fn set_sampler(&mut self, sampler: SamplerSettings) {
-        self.sampler = sampler;
-    }
-
-    /// The integrator's settings.
-    pub fn integrator(&self) -> &IntegratorSettings {
-        &self.integrator
     }
 
     /// The lights.
@@ -131,7 +91,7 @@ impl Scene {
         self.shapes.iter().map(|s| s.name.as_str()).zip(&self.meshes)
     }
 
-    /// A ball around all triangles.
+    /// A sphere around all triangles.
     pub fn bounding_sphere(&self) -> BoundingSphere {
         let bounds = self.accel.bounds();
         if bounds.is_empty() {
@@ -142,7 +102,7 @@ impl Scene {
         BoundingSphere { center: min + max, radius: (max - min).length() }
     }
 
-    /// The number of the light that the surface is at a hit.
+    /// Index of the light that the surface at a hit is, if it emits.
     ///
     /// # Panics
     /// Like [`Scene::interaction`].
@@ -151,25 +111,24 @@ impl Scene {
         self.shapes[hit.shape as usize].light
     }
 
-    /// The numbers of the lights that surfaces are.
+    /// Indices of the area lights.
     pub fn lights_on_surfaces(&self) -> impl Iterator<Item = usize> {
         self.shapes.iter().filter_map(|shape| shape.light)
     }
 
-    /// The only lobe that the surface has at a hit, where it has a constant one on flat triangles. A miss
-    /// has none.
+    /// The constant lobe of a flat-shaded surface at a hit that has no other; `None` for others and for a miss.
     #[inline]
     pub(crate) fn plain(&self, hit: &Hit) -> Option<&LambertianReflection> {
         self.shapes.get(hit.shape as usize)?.plain.as_ref()
     }
 
-    /// Whether all of its surfaces are of that kind.
+    /// Whether [`Scene::plain`] knows the lobe of every surface.
     #[inline]
     pub(crate) fn is_plain(&self) -> bool {
         self.is_plain
     }
 
-    /// The corners of the triangle that was hit.
+    /// The vertices of the triangle that was hit.
     ///
     /// # Panics
     /// Like [`Scene::interaction`].
@@ -185,10 +144,10 @@ impl Scene {
         self.build_seconds
     }
 
-    /// What is known about a hit of `ray`, whose direction has unit length.
+    /// The surface at a hit of `ray`, whose direction has unit length.
     ///
     /// # Panics
-    /// If `hit` is none of this scene's: a miss, or one from elsewhere.
+    /// If `hit` is a miss, or a hit in another scene.
     #[inline]
     pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction<'_> {
         let mesh = &self.meshes[hit.shape as usize];
@@ -196,8 +155,8 @@ impl Scene {
         SurfaceInteraction::on_shape(mesh, place, -ray.d)
     }
 
-    /// How the surface scatters light at a hit that [`Scene::interaction`] told about, and the frame that its
-    /// material gave it, in `si`. This is the one place where hits are turned into lobes.
+    /// How the surface scatters light at a hit, whose interaction may get a shading frame from its material. This is the
+    /// one place where hits are turned into lobes.
     ///
     /// # Panics
     /// Like [`Scene::interaction`].

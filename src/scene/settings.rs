@@ -1,4 +1,4 @@
-//! Settings of film, sampler and integrator: plain values.
+//! Settings of film, sampler and integrator, as plain values.
 
 use glam::UVec2;
 
@@ -19,6 +19,11 @@ pub struct FilmSettings {
 }
 
 impl FilmSettings {
+    /// An image of `width` × `height` pixels, and otherwise the default.
+    pub fn new(width: u32, height: u32) -> Self {
+        Self { resolution: UVec2::new(width, height), ..Self::default() }
+    }
+
     /// The pixels to render.
     pub fn window(&self) -> Window {
         self.crop.unwrap_or(Window::full(self.resolution))
@@ -35,6 +40,24 @@ impl Default for FilmSettings {
             filter: Filter::Box,
         }
     }
+}
+
+/// How a view of a scene is sampled and lit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RenderSettings {
+    /// Which samples are taken.
+    pub sampler: SamplerSettings,
+    /// How light is computed.
+    pub integrator: IntegratorSettings,
+}
+
+/// Why settings cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SettingsError {
+    /// There is nothing to average.
+    #[error("the sampler's spp is 0: it has to be at least 1")]
+    NoSamples,
 }
 
 /// Which sampler.
@@ -67,6 +90,14 @@ pub struct SamplerSettings {
 }
 
 impl SamplerSettings {
+    /// Checks the ranges of its values.
+    ///
+    /// # Errors
+    /// If there are no samples.
+    pub fn check(&self) -> Result<(), SettingsError> {
+        if self.spp == 0 { Err(SettingsError::NoSamples) } else { Ok(()) }
+    }
+
     /// More sets than this tell no more of the error.
     pub const MOST_SETS: u32 = 1024;
 

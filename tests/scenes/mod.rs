@@ -3,8 +3,8 @@
 
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::sampling::{SampleId, Sampler};
-use lobe::scene::SceneBuilder;
-use lobe::{CameraSettings, MatteMaterial, Scene, TriangleMesh};
+use lobe::scene::{IntegratorSettings, RenderSettings, SamplerKind, SamplerSettings, SceneBuilder};
+use lobe::{FilmSettings, MatteMaterial, PerspectiveSettings, Scene, TriangleMesh, View};
 
 /// One sample in the middle of each pixel, so that a closed form can say what it has to be.
 pub struct Middle;
@@ -69,15 +69,34 @@ fn star(rows: u32, radius: impl Fn(f32, f32) -> f32) -> TriangleMesh {
 }
 
 /// The chapter's camera.
-pub fn chapter_camera() -> CameraSettings {
-    CameraSettings { eye: Vec3::new(-3.0, 1.5, -3.0), look_at: Vec3::ZERO, ..Default::default() }
+pub fn chapter_camera() -> PerspectiveSettings {
+    PerspectiveSettings {
+        eye: Vec3::new(-3.0, 1.5, -3.0),
+        look_at: Vec3::ZERO,
+        ..Default::default()
+    }
 }
 
-/// A red ball over a blue floor, seen as in the chapter; lights and integrator are left to the test.
-pub fn ball_over_floor(resolution: UVec2) -> SceneBuilder {
+/// What the chapter's camera sees.
+pub fn chapter_view(resolution: UVec2) -> View {
+    view(&chapter_camera(), resolution)
+}
+
+/// What a camera sees on a film without crop, with a box filter.
+pub fn view(camera: &PerspectiveSettings, resolution: UVec2) -> View {
+    View::perspective(camera, FilmSettings::new(resolution.x, resolution.y)).unwrap()
+}
+
+/// Settings with so many independent samples.
+pub fn independent(spp: u32, integrator: IntegratorSettings) -> RenderSettings {
+    let sampler =
+        SamplerSettings { kind: SamplerKind::Independent, spp, ..SamplerSettings::default() };
+    RenderSettings { sampler, integrator }
+}
+
+/// A red ball over a blue floor, for the chapter's camera; the lights are left to the test.
+pub fn ball_over_floor() -> SceneBuilder {
     Scene::builder()
-        .camera(chapter_camera())
-        .resolution(resolution.x, resolution.y)
         .material("red", MatteMaterial::new([0.8, 0.1, 0.2]))
         .material("blue", MatteMaterial::new([0.2, 0.3, 0.9]))
         .shape("ball", lumpy_ball(24), "red")

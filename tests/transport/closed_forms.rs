@@ -2,22 +2,25 @@
 
 use std::f64::consts::PI;
 
-use lobe::film::Filter;
+use lobe::film::{Filter, Picture};
 use lobe::glam::{DVec2, DVec3, UVec2, Vec3};
 use lobe::light::{DistantLight, SkyLight};
-use lobe::scene::{
-    Emission, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings, SceneBuilder,
+use lobe::scene::{Emission, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings};
+use lobe::{
+    FilmSettings, MatteMaterial, PerspectiveSettings, RenderSettings, Scene, Spectrum,
+    TriangleMesh, View,
 };
-use lobe::{CameraSettings, MatteMaterial, Scene, Spectrum, TriangleMesh};
 
-use crate::scenes::{ball, floor};
+use crate::scenes::{ball, floor, view};
 use crate::statistics::{assert_mean, bands, picture};
 
 const STRATEGIES: [LightStrategy; 4] =
     [LightStrategy::Auto, LightStrategy::Mis, LightStrategy::Light, LightStrategy::Bsdf];
 
-fn sampler(spp: u32) -> SamplerSettings {
-    SamplerSettings { spp, seed: 3, ..SamplerSettings::default() }
+fn independent(spp: u32, integrator: IntegratorSettings) -> RenderSettings {
+    let kind = SamplerKind::Independent;
+    let sampler = SamplerSettings { kind, spp, seed: 3, ..SamplerSettings::default() };
+    RenderSettings { sampler, integrator }
 }
 
 fn path(max_depth: u32, roulette: bool, strategy: LightStrategy) -> IntegratorSettings {
@@ -25,13 +28,13 @@ fn path(max_depth: u32, roulette: bool, strategy: LightStrategy) -> IntegratorSe
 }
 
 /// Looks down on the plane y = 0 from above: image right is +x, image up is +z.
-fn from_above(height: f32, fov: f32) -> CameraSettings {
-    CameraSettings {
+fn from_above(height: f32, fov: f32) -> PerspectiveSettings {
+    PerspectiveSettings {
         eye: Vec3::Y * height,
         look_at: Vec3::ZERO,
         up: Vec3::Z,
         fov,
-        ..CameraSettings::default()
+        ..PerspectiveSettings::default()
     }
 }
 
@@ -42,15 +45,13 @@ fn a_plane_under_a_distant_light() {
     let towards = Vec3::new(0.48, 0.6, 0.64);
     let picture = picture(
         Scene::builder()
-            .camera(from_above(2.0, 60.0))
-            .resolution(16, 16)
-            .sampler(sampler(4))
-            .integrator(IntegratorSettings::direct())
             .material("plane", MatteMaterial::new([0.5, 0.25, 1.0]))
             .shape("plane", floor(0.0, 10.0), "plane")
             // Behind the plane and in front of it, out of sight and out of the light's way.
             .shape("below", floor(-1.0, 10.0), "plane")
             .light(DistantLight::new(towards, Spectrum::splat(3.0)).unwrap()),
+        &view(&from_above(2.0, 60.0), UVec2::splat(16)),
+        &independent(4, IntegratorSettings::direct()),
     );
     for (place, pixel) in picture.color.iter().enumerate() {
         for (band, r) in pixel.to_array().into_iter().zip([0.5, 0.25, 1.0]) {
@@ -66,15 +67,15 @@ fn a_plane_under_a_distant_light() {
 fn a_white_body_is_lost_before_the_sky() {
     for strategy in STRATEGIES {
         for max_depth in [1, 4] {
+            let camera =
+                PerspectiveSettings { eye: Vec3::Z * -3.0, ..PerspectiveSettings::default() };
             let picture = picture(
                 Scene::builder()
-                    .camera(CameraSettings { eye: Vec3::Z * -3.0, ..CameraSettings::default() })
-                    .resolution(32, 32)
-                    .sampler(sampler(1024))
-                    .integrator(path(max_depth, true, strategy))
                     .material("white", MatteMaterial::new([1.0, 1.0, 1.0]))
                     .shape("body", ball(16), "white")
                     .light(SkyLight::new(Spectrum::WHITE)),
+                &view(&camera, UVec2::splat(32)),
+                &independent(1024, path(max_depth, true, strategy)),
             );
             let what = format!("{strategy:?}, depth {max_depth}");
             assert_mean(&picture, 1.0, &what);
@@ -99,17 +100,17 @@ fn a_furnace_adds_up_all_reflections() {
     let auto = auto.map(|(depth, roulette)| (LightStrategy::Auto, depth, roulette));
     for (strategy, max_depth, roulette) in all.into_iter().chain(auto) {
         let emission = Emission { radiance: Spectrum::splat(e as f32), two_sided: true };
+        let eye = Vec3::new(0.1, 0.2, -0.3);
+        let camera = PerspectiveSettings { eye, ..PerspectiveSettings::default() };
         let picture = picture(
-            Scene::builder()
-                .camera(CameraSettings {
-                    eye: Vec3::new(0.1, 0.2, -0.3),
-                    ..CameraSettings::default()
-                })
-                .resolution(32, 32)
-                .sampler(sampler(1024))
-                .integrator(path(max_depth, roulette, strategy))
-                .material("grey", MatteMaterial::new([a as f32; 3]))
-                .glowing_shape("furnace", ball(12), "grey", emission),
+            Scene::builder().material("grey", MatteMaterial::new([a as f32; 3])).glowing_shape(
+                "furnace",
+                ball(12),
+                "grey",
+                emission,
+            ),
+            &view(&camera, UVec2::splat(32)),
+            &independent(1024, path(max_depth, roulette, strategy)),
         );
         let reflections = i32::try_from(max_depth).unwrap() + 1;
         let expected = e * (1.0 - f64::powi(a, reflections)) / (1.0 - a);
@@ -126,14 +127,12 @@ fn a_filter_blurs_an_edge() {
         let half =
             TriangleMesh::parallelogram(Vec3::new(-9.0, -9.0, 1.0), Vec3::X * 9.0, Vec3::Y * 18.0);
         let emission = Emission { radiance: Spectrum::WHITE, two_sided: true };
+        let camera = PerspectiveSettings { fov: 40.0, ..PerspectiveSettings::default() };
+        let film = FilmSettings { filter, ..FilmSettings::new(8, 8) };
         let picture = picture(
-            Scene::builder()
-                .camera(CameraSettings { look_at: Vec3::Z, fov: 40.0, ..CameraSettings::default() })
-                .resolution(8, 8)
-                .filter(filter)
-                .sampler(sampler(1 << 14))
-                .integrator(path(0, false, LightStrategy::Auto))
-                .lamp("half", half, emission),
+            Scene::builder().lamp("half", half, emission),
+            &View::perspective(&camera, film).unwrap(),
+            &independent(1 << 14, path(0, false, LightStrategy::Auto)),
         );
         let steps = 1 << 20;
         let places = || (0..steps).map(|i| (f64::from(i) + 0.5) / f64::from(steps) * 6.0 - 3.0);
@@ -163,16 +162,15 @@ fn lambert(p: DVec3, n: DVec3, polygon: &[DVec3]) -> f64 {
     ((0..polygon.len()).map(edge).sum::<f64>() / 2.0).abs()
 }
 
-fn under(lamp: TriangleMesh, strategy: LightStrategy, kind: SamplerKind) -> SceneBuilder {
+fn under(lamp: TriangleMesh, strategy: LightStrategy, kind: SamplerKind) -> Picture {
     let emission = Emission { radiance: Spectrum::splat(5.0), two_sided: false };
-    Scene::builder()
-        .camera(from_above(0.9, 90.0))
-        .resolution(8, 8)
-        .sampler(SamplerSettings { kind, spp: 16_384, seed: 11, replicates: 64 })
-        .integrator(IntegratorSettings::Direct { strategy })
+    let scene = Scene::builder()
         .material("plane", MatteMaterial::new([0.8, 0.4, 0.2]))
         .shape("plane", floor(0.0, 10.0), "plane")
-        .lamp("lamp", lamp, emission)
+        .lamp("lamp", lamp, emission);
+    let sampler = SamplerSettings { kind, spp: 16_384, seed: 11, replicates: 64 };
+    let settings = RenderSettings { sampler, integrator: IntegratorSettings::Direct { strategy } };
+    picture(scene, &view(&from_above(0.9, 90.0), UVec2::splat(8)), &settings)
 }
 
 /// A diffuse plane under a polygon has R/π times Lambert's irradiance: a rectangle, which is sampled by solid angle,
@@ -198,7 +196,7 @@ fn a_plane_under_a_polygon() {
             (LightStrategy::Mis, SamplerKind::Sobol),
             (LightStrategy::Auto, SamplerKind::Stratified),
         ] {
-            let picture = picture(under(mesh.clone(), strategy, kind));
+            let picture = under(mesh.clone(), strategy, kind);
             for (place, (band, variance)) in bands(&picture).into_iter().enumerate() {
                 let (pixel, r) = (place / 3, [0.8, 0.4, 0.2][place % 3]);
                 let pixel = UVec2::new(pixel as u32 % 8, pixel as u32 / 8).as_dvec2();

@@ -5,9 +5,9 @@ use lobe::light::{DistantLight, SkyLight};
 use lobe::scene::{
     Emission, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings, SceneBuilder,
 };
-use lobe::{MatteMaterial, PointLight, Spectrum, TriangleMesh};
+use lobe::{MatteMaterial, PointLight, RenderSettings, Spectrum, TriangleMesh};
 
-use crate::scenes::{ball, ball_over_floor};
+use crate::scenes::{ball, ball_over_floor, chapter_view};
 use crate::statistics::{assert_alike, bands, picture};
 
 const SAMPLERS: [SamplerKind; 4] =
@@ -23,7 +23,7 @@ fn scene() -> SceneBuilder {
     moon.positions.iter_mut().for_each(|p| *p = *p * 0.6 + Vec3::new(-1.6, -0.8, -1.2));
     moon.normals = ball(6).positions;
     let glow = |l: f32, two_sided| Emission { radiance: Spectrum::new(l, l, 0.5 * l), two_sided };
-    ball_over_floor(UVec2::new(24, 24))
+    ball_over_floor()
         // Rough, and with normals of its own: what is not plain takes another way through the code.
         .material("red", MatteMaterial::new([0.8, 0.1, 0.2]).with_sigma(20.0))
         .lamp("lamp", lamp, glow(4.0, true))
@@ -37,7 +37,11 @@ fn estimate(integrator: IntegratorSettings, kind: SamplerKind) -> Vec<(f64, f64)
     // The reference has a seed of its own: the same samples would hide what they have in common.
     let seed = 100 * kind as u64;
     let sampler = SamplerSettings { kind, spp: 2048, seed, replicates: 64 };
-    bands(&picture(scene().integrator(integrator).sampler(sampler)))
+    bands(&picture(
+        scene(),
+        &chapter_view(UVec2::splat(24)),
+        &RenderSettings { sampler, integrator },
+    ))
 }
 
 /// Direct light, by both integrators. Seen to fail with the power heuristic's arguments exchanged, at plain
@@ -90,12 +94,13 @@ fn leaning_normals_have_one_value() {
         leaning.positions.iter_mut().for_each(|p| *p = *p * 1.5 + Vec3::Y);
         leaning.normals.iter_mut().for_each(|n| *n = (*n + 0.8 * Vec3::Y).normalize());
         let sampler = SamplerSettings { kind, spp: 2048, seed: kind as u64, replicates: 64 };
-        let path = IntegratorSettings::Path { max_depth: 3, roulette: false, strategy };
-        let scene = ball_over_floor(UVec2::new(24, 24))
+        let integrator = IntegratorSettings::Path { max_depth: 3, roulette: false, strategy };
+        let scene = ball_over_floor()
             .material("red", MatteMaterial::new([0.8, 0.5, 0.2]))
             .shape("leaning", leaning, "red")
             .light(SkyLight::new(Spectrum::splat(1.0)));
-        bands(&picture(scene.integrator(path).sampler(sampler)))
+        let settings = RenderSettings { sampler, integrator };
+        bands(&picture(scene, &chapter_view(UVec2::splat(24)), &settings))
     };
     let reference = under(LightStrategy::Light, SamplerKind::Independent);
     for strategy in [LightStrategy::Mis, LightStrategy::Bsdf] {

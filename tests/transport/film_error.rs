@@ -3,9 +3,9 @@
 use lobe::glam::{UVec2, Vec3};
 use lobe::light::SkyLight;
 use lobe::scene::{Emission, IntegratorSettings, SamplerKind, SamplerSettings};
-use lobe::{Spectrum, TriangleMesh};
+use lobe::{RenderSettings, Spectrum, TriangleMesh};
 
-use crate::scenes::ball_over_floor;
+use crate::scenes::{ball_over_floor, chapter_view};
 use crate::statistics::{bands, picture};
 
 const SEEDS: u64 = 32;
@@ -27,12 +27,13 @@ fn the_claimed_error_is_the_true_one() {
         for (spp, replicates) in [(16, 2), (64, 4)] {
             let estimates: Vec<_> = (0..SEEDS)
                 .map(|seed| {
-                    let scene = ball_over_floor(UVec2::splat(32))
-                        .sampler(SamplerSettings { kind, spp, seed, replicates })
-                        .integrator(IntegratorSettings::path(3))
+                    let sampler = SamplerSettings { kind, spp, seed, replicates };
+                    let integrator = IntegratorSettings::path(3);
+                    let scene = ball_over_floor()
                         .lamp("lamp", lamp.clone(), emission)
                         .light(SkyLight::new(Spectrum::splat(0.5)));
-                    bands(&picture(scene))
+                    let settings = RenderSettings { sampler, integrator };
+                    bands(&picture(scene, &chapter_view(UVec2::splat(32)), &settings))
                 })
                 .collect();
             let seeds = SEEDS as f64;

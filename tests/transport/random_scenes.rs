@@ -1,13 +1,17 @@
 //! A thousand scenes that nobody would build: whatever stands where, every sample is finite.
 
-use lobe::glam::Vec3;
+use lobe::glam::{UVec2, Vec3};
 use lobe::light::{DistantLight, SkyLight};
 use lobe::scene::{
-    Emission, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings, Scene, read_scene,
+    Emission, IntegratorSettings, LightStrategy, LoadedScene, SamplerKind, SamplerSettings, Scene,
+    read_scene,
 };
 use lobe::{
-    CameraSettings, MatteMaterial, PointLight, RenderOptions, Spectrum, TriangleMesh, render,
+    MatteMaterial, PerspectiveSettings, PointLight, RenderOptions, RenderSettings, Spectrum,
+    TriangleMesh, View, render,
 };
+
+use crate::scenes::view;
 
 /// SplitMix64: a generator for each scene.
 struct Rng(u64);
@@ -86,7 +90,7 @@ fn mesh(rng: &mut Rng) -> TriangleMesh {
     }
 }
 
-fn scene(trial: u64) -> Scene {
+fn scene(trial: u64) -> (Scene, View, RenderSettings) {
     let rng = &mut Rng(trial.wrapping_mul(0x2545_f491_4f6c_dd1d));
     let scale = 10_f32.powf(rng.within(-4.0, 4.0));
     let shift = if rng.below(3) == 0 { rng.vector() * scale * 1e3 } else { Vec3::ZERO };
@@ -122,18 +126,13 @@ fn scene(trial: u64) -> Scene {
         let matte = MatteMaterial::new(kd.to_array());
         if rng.below(2) == 0 { matte.with_sigma(90.0 * rng.f32()) } else { matte }
     };
-    let mut builder = Scene::builder()
-        .camera(CameraSettings {
-            eye: at(eye),
-            look_at: at(eye + (rng.vector() * 0.1 - eye).normalize_or(Vec3::Z)),
-            up: Vec3::new(0.1, 1.0, 0.2),
-            ..CameraSettings::default()
-        })
-        .resolution(12, 12)
-        .integrator(integrator)
-        .sampler(sampler)
-        .material("a", matte(rng))
-        .material("b", matte(rng));
+    let camera = PerspectiveSettings {
+        eye: at(eye),
+        look_at: at(eye + (rng.vector() * 0.1 - eye).normalize_or(Vec3::Z)),
+        up: Vec3::new(0.1, 1.0, 0.2),
+        ..PerspectiveSettings::default()
+    };
+    let mut builder = Scene::builder().material("a", matte(rng)).material("b", matte(rng));
     for i in 0..1 + rng.below(4) {
         let (name, mesh) = (i.to_string(), placed(mesh(rng)));
         let material = ["a", "b"][rng.below(2)];
@@ -154,7 +153,8 @@ fn scene(trial: u64) -> Scene {
             _ => builder.light(PointLight::new(at(rng.place()), rng.light())),
         };
     }
-    builder.build().unwrap_or_else(|error| panic!("scene {trial}: {error}"))
+    let scene = builder.build().unwrap_or_else(|error| panic!("scene {trial}: {error}"));
+    (scene, view(&camera, UVec2::splat(12)), RenderSettings { sampler, integrator })
 }
 
 /// The scenes that come with the crate, small.
@@ -166,7 +166,8 @@ fn no_sample_of_a_shipped_scene_is_not_finite() {
             continue;
         }
         let loaded = read_scene(&path, &["film.resolution=[80,60]", "sampler.spp=16"]).unwrap();
-        let rendered = render(&loaded.scene, &RenderOptions::default()).unwrap();
+        let LoadedScene { scene, view, settings, .. } = loaded;
+        let rendered = render(&scene, &view, &settings, &RenderOptions::default()).unwrap();
         let path = path.display();
         assert_eq!((rendered.non_finite, rendered.counters.rejected), (0, 0), "{path}");
         assert!(rendered.picture.color.iter().any(|color| !color.is_black()), "{path}");
@@ -178,7 +179,8 @@ fn no_sample_of_a_shipped_scene_is_not_finite() {
 fn no_sample_is_not_finite() {
     let mut lit = 0;
     for trial in 0..1000 {
-        let rendered = render(&scene(trial), &RenderOptions::default()).unwrap();
+        let (scene, view, settings) = scene(trial);
+        let rendered = render(&scene, &view, &settings, &RenderOptions::default()).unwrap();
         assert_eq!(rendered.non_finite, 0, "scene {trial}");
         assert_eq!(rendered.counters.rejected, 0, "scene {trial}");
         let values = || rendered.picture.color.iter().flat_map(|c| c.to_array());

@@ -1,11 +1,11 @@
 //! How fast the error falls.
 
-use lobe::Spectrum;
 use lobe::glam::UVec2;
 use lobe::light::SkyLight;
 use lobe::scene::{IntegratorSettings, SamplerKind, SamplerSettings};
+use lobe::{RenderSettings, Spectrum};
 
-use crate::scenes::ball_over_floor;
+use crate::scenes::{ball_over_floor, chapter_view};
 use crate::statistics::{bands, picture};
 
 const SEEDS: u64 = 8;
@@ -35,11 +35,10 @@ fn slope(kind: SamplerKind, reference: &[(f64, f64)]) -> f64 {
 
 fn render(kind: SamplerKind, spp: u32, seed: u64) -> Vec<(f64, f64)> {
     let replicates = if spp > 1 << 12 { 8 } else { 2 };
-    let scene = ball_over_floor(UVec2::splat(24))
-        .sampler(SamplerSettings { kind, spp, seed, replicates })
-        .integrator(IntegratorSettings::path(5))
-        .light(SkyLight::new(Spectrum::WHITE));
-    bands(&picture(scene))
+    let sampler = SamplerSettings { kind, spp, seed, replicates };
+    let settings = RenderSettings { sampler, integrator: IntegratorSettings::path(5) };
+    let scene = ball_over_floor().light(SkyLight::new(Spectrum::WHITE));
+    bands(&picture(scene, &chapter_view(UVec2::splat(24)), &settings))
 }
 
 /// Independent samples fall with -0.5, Sobol's by more.

@@ -2,12 +2,12 @@
 
 use lobe::film::Picture;
 use lobe::scene::SceneBuilder;
-use lobe::{RenderOptions, render};
+use lobe::{RenderOptions, RenderSettings, View, render};
 
 /// The picture of a scene, with the variance of each pixel.
-pub fn picture(builder: SceneBuilder) -> Picture {
+pub fn picture(scene: SceneBuilder, view: &View, settings: &RenderSettings) -> Picture {
     let options = RenderOptions { layers: true, ..RenderOptions::default() };
-    let rendered = render(&builder.build().unwrap(), &options).unwrap();
+    let rendered = render(&scene.build().unwrap(), view, settings, &options).unwrap();
     assert_eq!((rendered.non_finite, rendered.counters.rejected), (0, 0));
     rendered.picture
 }

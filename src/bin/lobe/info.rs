@@ -3,11 +3,12 @@
 use std::error::Error;
 
 use clap::Args;
+use lobe::TriangleMesh;
 use lobe::film::{Display, Filter};
 use lobe::scene::{
-    IntegratorSettings, LightStrategy, LoadedScene, SamplerKind, SamplerSettings, Scene,
+    IntegratorSettings, LightStrategy, LoadedScene, RenderSettings, SamplerKind, SamplerSettings,
+    View,
 };
-use lobe::{CameraSettings, TriangleMesh};
 
 use crate::scene::SceneArguments;
 use crate::summary::Summary;
@@ -27,10 +28,12 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
-    let LoadedScene { scene, report } = arguments.scene.load()?;
+    let LoadedScene { scene, view, settings, report } = arguments.scene.load()?;
     let mut summary = Summary::default();
     summary.add("scene", arguments.scene.path.display());
-    add_settings(&mut summary, &scene);
+    add_view(&mut summary, &view);
+    add_settings(&mut summary, &settings);
+    summary.add("lights", scene.lights().len());
     for ((name, mesh), odd) in scene.shapes().zip(&report.meshes) {
         let mut line = format!("{name}: {} triangles", mesh.indices.len());
         if odd.degenerate_triangles > 0 {
@@ -68,36 +71,33 @@ fn memory(mesh: &TriangleMesh) -> usize {
         + size_of_val(&indices[..])
 }
 
-/// A line each for camera, film, sampler, integrator and lights.
-fn add_settings(summary: &mut Summary, scene: &Scene) {
-    let CameraSettings { eye, look_at, up: _, fov, lens_radius, focal_distance } =
-        scene.camera_settings();
-    let lens = match scene.camera().has_lens() {
-        true => format!("lens radius {lens_radius}, in focus at {focal_distance}"),
-        false => "pinhole".into(),
-    };
-    summary.add("camera", format!("{eye} to {look_at}, {fov} degrees, {lens}"));
-    summary.add_film(scene.film());
-    let display = match scene.film().display {
+/// Lines for camera and film.
+fn add_view(summary: &mut Summary, view: &View) {
+    summary.add("camera", view.camera().describe());
+    summary.add_film(view.film());
+    let display = match view.film().display {
         Display::Srgb => "srgb",
         Display::Exposure => "exposure",
     };
     summary.add("display", display);
-    summary.add("filter", filter(scene.film().filter));
-    let SamplerSettings { kind, spp, seed, .. } = scene.sampler();
+    summary.add("filter", filter(view.film().filter));
+}
+
+/// A line each for sampler and integrator.
+fn add_settings(summary: &mut Summary, settings: &RenderSettings) {
+    let SamplerSettings { kind, spp, seed, .. } = settings.sampler;
     let kind = match kind {
         SamplerKind::Independent => "independent",
         SamplerKind::Stratified => "stratified",
         SamplerKind::Sobol => "sobol",
         SamplerKind::BlueNoise => "blue-noise",
     };
-    let sets = match scene.sampler().sets() {
+    let sets = match settings.sampler.sets() {
         1 => String::new(),
         sets => format!(" in {sets} sets"),
     };
     summary.add("sampler", format!("{kind}, {spp} samples per pixel{sets}, seed {seed}"));
-    summary.add("integrator", integrator(scene.integrator()));
-    summary.add("lights", scene.lights().len());
+    summary.add("integrator", integrator(&settings.integrator));
 }
 
 fn filter(filter: Filter) -> String {

@@ -9,7 +9,7 @@ use clap::Args;
 use clap::value_parser;
 use lobe::film::Metadata;
 use lobe::render::Progress;
-use lobe::scene::{LoadedScene, SamplerSettings};
+use lobe::scene::LoadedScene;
 use lobe::{RenderOptions, render};
 
 use crate::output::{Format, Output};
@@ -71,13 +71,10 @@ fn seconds(text: &str) -> Result<Duration, String> {
 
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let outputs = Output::all(&arguments.output, &arguments.scene.path)?;
-    let LoadedScene { mut scene, report } = arguments.scene.load()?;
-    let sampler = *scene.sampler();
-    let (spp, seed) =
-        (arguments.spp.unwrap_or(sampler.spp), arguments.seed.unwrap_or(sampler.seed));
-    scene.set_sampler(SamplerSettings { spp, seed, ..sampler });
+    let LoadedScene { scene, view, mut settings, report } = arguments.scene.load()?;
+    settings.sampler.seed = arguments.seed.unwrap_or(settings.sampler.seed);
 
-    let bar = (!arguments.quiet).then(|| Bar::new(scene.film().window().area() as u64));
+    let bar = (!arguments.quiet).then(|| Bar::new(view.film().window().area() as u64));
     let progress = |progress: Progress| bar.iter().for_each(|bar| bar.update(progress));
     let options = RenderOptions {
         threads: arguments.threads.and_then(|threads| NonZeroUsize::new(threads.into())),
@@ -87,25 +84,25 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         progress: Some(&progress),
         ..RenderOptions::default()
     };
-    let rendered = render(&scene, &options);
+    let rendered = render(&scene, &view, &settings, &options);
     bar.iter().for_each(Bar::clear);
     let rendered = rendered?;
 
     let start = Instant::now();
     let metadata = Metadata {
         scene: arguments.scene.path.display().to_string(),
-        seed,
+        seed: settings.sampler.seed,
         samples_per_pixel: rendered.samples_per_pixel,
         seconds: rendered.seconds,
     };
     for output in &outputs {
-        output.write(&rendered.picture, scene.film().display, &metadata)?;
+        output.write(&rendered.picture, view.film().display, &metadata)?;
     }
     if !arguments.quiet {
         let write_seconds = start.elapsed().as_secs_f64();
         let mut summary = Summary::default();
         summary.add("scene", &metadata.scene);
-        summary.add_film(scene.film());
+        summary.add_film(view.film());
         summary.add("samples", format!("{} per pixel", rendered.samples_per_pixel));
         summary.add_meshes(&scene);
         summary.add("threads", rendered.threads);
@@ -122,6 +119,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         summary.add("non-finite", format!("{} samples", rendered.non_finite));
         if rendered.counters.rejected > 0 {
             summary.add("rejected", format!("{} lobe values", rendered.counters.rejected));
+        }
+        if rendered.counters.refused_camera_rays > 0 {
+            summary
+                .add("refused", format!("{} camera rays", rendered.counters.refused_camera_rays));
         }
         for output in &outputs {
             summary.add("wrote", output.path.display());

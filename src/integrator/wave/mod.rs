@@ -10,14 +10,15 @@ pub use paths::{Path, Paths};
 pub use rules::{PathRules, power_heuristic};
 pub use vertices::Vertices;
 
+use glam::{Vec2, Vec3};
 use plain::push_x4;
 
 use crate::accel::Hit;
 use crate::bxdf::Arena;
-use crate::film::Filter;
+use crate::camera;
 use crate::geometry::Ray;
 use crate::sampling::{SampleId, Sampler};
-use crate::scene::Scene;
+use crate::scene::{Scene, View};
 use crate::spectrum::Spectrum;
 
 /// Which dimension of a sample is used for what.
@@ -65,6 +66,9 @@ pub struct Counters {
     pub scattered_rays: u64,
     /// What Bsdfs refused: see [`Bsdf::rejected`](crate::bxdf::Bsdf::rejected).
     pub rejected: u64,
+    /// Camera rays that could not be traced: see [`Camera`](crate::camera::Camera). Their samples are left out of the
+    /// picture and counted among those that are not finite, too.
+    pub refused_camera_rays: u64,
 }
 
 impl Counters {
@@ -79,15 +83,19 @@ impl Counters {
         self.shadow_rays += other.shadow_rays;
         self.scattered_rays += other.scattered_rays;
         self.rejected += other.rejected;
+        self.refused_camera_rays += other.refused_camera_rays;
     }
 }
 
 /// A batch of camera samples with all that is known of each, and the buffers that one worker uses
-/// over and over. Element i of the first four belongs to the same sample.
+/// over and over. Element i of ids, rays, hits and radiance belongs to the same sample.
 #[derive(Default)]
 pub struct Wave {
     /// Pixel and index.
     pub ids: Vec<SampleId>,
+    /// Sample values for the points of pixel and lens.
+    film: Vec<Vec2>,
+    lens: Vec<Vec2>,
     /// Rays from the camera.
     pub rays: Vec<Ray>,
     /// What they hit.
@@ -109,6 +117,8 @@ impl Wave {
     pub fn with_capacity(samples: usize, shadow_rays: usize) -> Self {
         Self {
             ids: Vec::with_capacity(samples),
+            film: Vec::with_capacity(samples),
+            lens: Vec::with_capacity(samples),
             rays: Vec::with_capacity(samples),
             hits: Vec::with_capacity(samples),
             radiance: Vec::with_capacity(samples),
@@ -119,40 +129,30 @@ impl Wave {
     }
 
     /// Starts anew with the camera rays of the samples in `ids`, and finds what they hit.
-    pub fn begin(&mut self, scene: &Scene, sampler: &dyn Sampler) {
-        self.generate_rays(scene, sampler);
-        self.counters.camera_rays += self.rays.len() as u64;
+    pub fn begin(&mut self, scene: &Scene, view: &View, sampler: &dyn Sampler) {
+        let Self { ids, film, lens, rays, hits, radiance, counters, .. } = self;
+        sampler.fill_2d(ids, dimension::FILM, film);
+        if view.camera().has_lens() {
+            sampler.fill_2d(ids, dimension::LENS, lens);
+        } else {
+            lens.clear();
+            lens.resize(ids.len(), Vec2::ZERO);
+        }
+        view.generate_rays(ids, film, lens, rays);
+        radiance.clear();
+        radiance.resize(rays.len(), Spectrum::BLACK);
+        for (ray, radiance) in rays.iter_mut().zip(&mut *radiance) {
+            if !camera::prepare(ray) {
+                // Hits nothing; and whatever is added to NaN, the film leaves the sample out.
+                *ray = Ray { t_max: -1.0, ..Ray::new(Vec3::ZERO, Vec3::Z) };
+                *radiance = Spectrum::splat(f32::NAN);
+                counters.refused_camera_rays += 1;
+            }
+        }
+        counters.camera_rays += rays.len() as u64;
         // What is left of other rays is overwritten.
-        self.hits.resize(self.rays.len(), Hit::MISS);
-        scene.accel().intersect(&self.rays, &mut self.hits);
-        self.radiance.clear();
-        self.radiance.resize(self.rays.len(), Spectrum::BLACK);
-    }
-}
-
-impl Wave {
-    #[inline(never)]
-    fn generate_rays(&mut self, scene: &Scene, sampler: &dyn Sampler) {
-        let (camera, filter) = (scene.camera(), scene.filter());
-        let Self { ids, rays, paths, .. } = self;
-        let places = &mut paths.values.direction;
-        sampler.fill_2d(ids, dimension::FILM, places);
-        rays.clear();
-        if scene.film().filter != Filter::Box {
-            places.iter_mut().for_each(|place| *place = filter.place(*place));
-        }
-        if camera.has_lens() {
-            rays.extend(ids.iter().zip(&*places).map(|(&id, &place)| {
-                camera.generate_ray(id.pixel, place, || sampler.get_2d(id, dimension::LENS))
-            }));
-            return;
-        }
-        let mut places = &places[..];
-        for of_set in SampleId::sets(ids) {
-            let (of_pixel, rest) = places.split_at(of_set.len());
-            camera.generate_pinhole_rays(of_set[0].pixel, of_pixel, rays);
-            places = rest;
-        }
+        hits.resize(rays.len(), Hit::MISS);
+        scene.accel().intersect(rays, hits);
     }
 }
 

@@ -3,8 +3,8 @@
 use super::super::{CompareError, Errors, Image};
 use super::{Reference, Run};
 use crate::clock::Stopwatch;
-use crate::render::{RenderError, RenderOptions, Rendered, render_as};
-use crate::scene::{IntegratorSettings, SamplerSettings, Scene};
+use crate::render::{RenderError, RenderOptions, Rendered, render};
+use crate::scene::{RenderSettings, SamplerSettings, Scene, View};
 
 /// A way to render a scene, to be compared with others.
 pub struct Method<'a> {
@@ -19,9 +19,12 @@ type Render<'a> = dyn Fn(u32, u64) -> Result<Rendered, RenderError> + 'a;
 /// Why there is no run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RunError {
-    /// No picture came about.
+    /// There is no picture.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// The picture lacks samples.
+    #[error("the render was cancelled")]
+    Cancelled,
     /// The picture cannot be compared: it is not finite, or has another size than the reference.
     #[error(transparent)]
     Compare(#[from] CompareError),
@@ -38,17 +41,17 @@ impl<'a> Method<'a> {
         Self { name: name.into(), build, render: Box::new(render) }
     }
 
-    /// The scene, sampled and lit by these settings in place of its own.
+    /// A view of a scene by these settings, but for the number of samples and the seed.
     pub fn of_settings(
         scene: &'a Scene,
+        view: &'a View,
         name: impl Into<String>,
-        sampler: SamplerSettings,
-        integrator: IntegratorSettings,
+        settings: RenderSettings,
         options: RenderOptions<'a>,
     ) -> Self {
         Self::new(name, scene.build_seconds(), move |spp, seed| {
-            let sampler = SamplerSettings { spp, seed, ..sampler };
-            render_as(scene, &sampler, &integrator, &options)
+            let sampler = SamplerSettings { spp, seed, ..settings.sampler };
+            render(scene, view, &RenderSettings { sampler, ..settings }, &options)
         })
     }
 
@@ -60,10 +63,13 @@ impl<'a> Method<'a> {
     /// A picture, and the seconds before its rendering and of it.
     ///
     /// # Errors
-    /// Those of the rendering.
-    pub fn render(&self, spp: u32, seed: u64) -> Result<(Image, [f64; 2]), RenderError> {
+    /// Those of the rendering, or if it was cancelled.
+    pub fn render(&self, spp: u32, seed: u64) -> Result<(Image, [f64; 2]), RunError> {
         let start = Stopwatch::start();
         let rendered = (self.render)(spp, seed)?;
+        if !rendered.complete {
+            return Err(RunError::Cancelled);
+        }
         let all = start.seconds();
         let set_up = self.build + (all - rendered.seconds).max(0.0);
         Ok((Image::from(&rendered.picture), [set_up, rendered.seconds]))

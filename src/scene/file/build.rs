@@ -12,19 +12,18 @@ use crate::camera::CameraError;
 use crate::film::FilterError;
 use crate::light::{DistantLight, PointLight, SkyLight};
 use crate::material::MatteMaterial;
-use crate::scene::{Scene, SceneBuilder, SceneError};
+use crate::scene::{RenderSettings, Scene, SceneBuilder, SceneError, View, ViewError};
 use crate::shape::{ObjMesh, ObjReport, TriangleMesh, read_obj};
 
-/// Looks up all names, reads the meshes and builds the scene. The settings are checked before the
-/// meshes are read, which may take long.
+/// Looks up all names, reads the meshes and builds the scene, its view and its settings. The last two are checked
+/// before the meshes are read, which may take long.
 pub fn build(
     description: Description,
     document: &Document,
-) -> Result<(Scene, Vec<ObjReport>), Fault> {
+) -> Result<(Scene, View, RenderSettings, Vec<ObjReport>), Fault> {
     let Description { camera, film, sampler, integrator, textures, materials, lights, shapes } =
         description;
-    let mut builder =
-        Scene::builder().camera(camera).film(film).sampler(sampler).integrator(integrator);
+    let mut builder = Scene::builder();
     for (name, material) in &materials {
         let textures = Textures { textures: &textures, document, material: name };
         builder = builder.material(name, textures.material(material)?);
@@ -43,11 +42,9 @@ pub fn build(
             LightDescription::Sky { radiance } => builder.light(SkyLight::new(radiance.into())),
         };
     }
-    let fault = |error: SceneError| {
-        let mark = document.root.follow(&keys(&error)).mark;
-        Fault { mark, problem: error.into() }
-    };
-    builder.check().map_err(fault)?;
+    let view = View::perspective(&camera, film)
+        .map_err(|error| document.fault(&keys_of_view(&error), error))?;
+    sampler.check().map_err(|error| document.fault(&["sampler", "spp"], error))?;
     for (name, shape) in &shapes {
         let Some(material) = &shape.material else { continue };
         if materials.iter().all(|(known, _)| known != material) {
@@ -73,13 +70,27 @@ pub fn build(
         mesh.transform(&transform);
         builder = builder.add_shape(name, mesh, material, emission);
     }
-    Ok((builder.build().map_err(fault)?, reports))
+    let fault = |error: SceneError| {
+        let mark = document.root.follow(&keys(&error)).mark;
+        Fault { mark, problem: error.into() }
+    };
+    let scene = builder.build().map_err(fault)?;
+    Ok((scene, view, RenderSettings { sampler, integrator }, reports))
 }
 
 /// The key whose value an error is about.
 fn keys(error: &SceneError) -> Vec<&str> {
     match error {
-        SceneError::Camera(error) => match error {
+        SceneError::UnknownMaterial { shape, .. } => vec!["shape", shape, "material"],
+        SceneError::TooManyTriangles(_) => vec!["shape"],
+        SceneError::Mesh(shape, _) => vec!["shape", shape],
+    }
+}
+
+/// The key whose value an error is about.
+fn keys_of_view(error: &ViewError) -> Vec<&'static str> {
+    match error {
+        ViewError::Camera(error) => match error {
             CameraError::OutOfRange(key) => vec!["camera", key],
             CameraError::NoDirection => vec!["camera", "look_at"],
             CameraError::NoUp => vec!["camera", "up"],
@@ -88,13 +99,10 @@ fn keys(error: &SceneError) -> Vec<&str> {
             CameraError::FocalDistance(_) => vec!["camera", "focal_distance"],
             CameraError::Resolution(..) => vec!["film", "resolution"],
         },
-        SceneError::Crop(..) => vec!["film", "crop"],
-        SceneError::Filter(FilterError::Radius(_)) => vec!["film", "filter_radius"],
-        SceneError::Filter(FilterError::Sigma(_)) => vec!["film", "filter_sigma"],
-        SceneError::NoSamples => vec!["sampler", "spp"],
-        SceneError::UnknownMaterial { shape, .. } => vec!["shape", shape, "material"],
-        SceneError::TooManyTriangles(_) => vec!["shape"],
-        SceneError::Mesh(shape, _) => vec!["shape", shape],
+        ViewError::Resolution { .. } => vec!["film", "resolution"],
+        ViewError::Crop(..) => vec!["film", "crop"],
+        ViewError::Filter(FilterError::Radius(_)) => vec!["film", "filter_radius"],
+        ViewError::Filter(FilterError::Sigma(_)) => vec!["film", "filter_sigma"],
     }
 }
 

@@ -9,7 +9,7 @@ use super::description::{
 use super::document::{Document, Fault};
 use super::section::Section;
 use super::value::{Direction, Light, Rotation, Scale};
-use crate::camera::CameraSettings;
+use crate::camera::PerspectiveSettings;
 use crate::film::{Display, Filter, Window};
 use crate::scene::{
     Emission, FilmSettings, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings,
@@ -69,13 +69,14 @@ fn all<T>(
     section.sections().map(named).collect()
 }
 
-fn camera(section: &Section) -> Result<CameraSettings, Fault> {
+fn camera(section: &Section) -> Result<PerspectiveSettings, Fault> {
     section.only(&["eye", "look_at", "up", "fov", "lens_radius", "focal_distance"])?;
-    let default = CameraSettings::default();
-    Ok(CameraSettings {
+    let default = PerspectiveSettings::default();
+    Ok(PerspectiveSettings {
         eye: section.get_or("eye", default.eye)?,
         look_at: section.get_or("look_at", default.look_at)?,
         up: section.get_or("up", default.up)?,
+        handedness: default.handedness,
         fov: section.get_or("fov", default.fov)?,
         lens_radius: section.get_or("lens_radius", default.lens_radius)?,
         focal_distance: section.get_or("focal_distance", default.focal_distance)?,

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 
 use glam::{Affine3A, Vec3};
 
-use crate::camera::CameraSettings;
+use crate::camera::PerspectiveSettings;
 use crate::scene::{Emission, FilmSettings, IntegratorSettings, SamplerSettings};
 
 /// A scene before its meshes are read. Lists are in the order of the file.
 pub struct Description {
-    pub camera: CameraSettings,
+    pub camera: PerspectiveSettings,
     pub film: FilmSettings,
     pub sampler: SamplerSettings,
     pub integrator: IntegratorSettings,

@@ -4,7 +4,7 @@ use std::fmt::{self, Display, Formatter};
 use std::io;
 use std::path::PathBuf;
 
-use crate::scene::SceneError;
+use crate::scene::{SceneError, SettingsError, ViewError};
 use crate::shape::ObjError;
 
 /// Why a scene file gives no scene. Each message is one sentence that begins with the place:
@@ -125,6 +125,12 @@ pub enum Problem {
     /// Each value is fine by itself, but they make no scene.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// Each value is fine by itself, but they make no view.
+    #[error(transparent)]
+    View(#[from] ViewError),
+    /// The scene cannot be sampled or lit like this.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
     /// A mesh cannot be read.
     #[error(transparent)]
     Obj(#[from] ObjError),

@@ -1,4 +1,4 @@
-//! Scene files: TOML, from the text to a [`Description`](description::Description) to a [`Scene`].
+//! Scene files: TOML, from the text to a [`Description`](description::Description) to a [`LoadedScene`].
 
 mod build;
 mod describe;
@@ -15,15 +15,19 @@ use std::path::Path;
 
 pub use error::{Place, Problem, SceneFileError};
 
-use super::{IntegratorSettings, SamplerSettings, Scene};
+use super::{RenderSettings, Scene, View};
 use crate::clock::Stopwatch;
 use crate::shape::ObjReport;
 use document::Document;
 
 /// A scene that was read from a file.
 pub struct LoadedScene {
-    /// The scene.
+    /// What is rendered.
     pub scene: Scene,
+    /// How it is seen.
+    pub view: View,
+    /// How it is sampled and lit.
+    pub settings: RenderSettings,
     /// What was noticed on the way.
     pub report: LoadReport,
 }
@@ -51,18 +55,15 @@ pub fn read_scene(path: &Path, overrides: &[&str]) -> Result<LoadedScene, SceneF
     Ok(loaded)
 }
 
-/// How the scene file at `path` with `overrides` wants to be sampled and lit. No mesh is read.
+/// The settings of the scene file at `path` with `overrides`, without its meshes being read.
 ///
 /// # Errors
 /// As for [`read_scene`], but for what is wrong with names and meshes.
-pub fn read_settings(
-    path: &Path,
-    overrides: &[&str],
-) -> Result<(SamplerSettings, IntegratorSettings), SceneFileError> {
+pub fn read_settings(path: &Path, overrides: &[&str]) -> Result<RenderSettings, SceneFileError> {
     let text = read_text(path)?;
     let document = Document::parse(path, &text, overrides)?;
     let description = document.place(describe::describe(&document))?;
-    Ok((description.sampler, description.integrator))
+    Ok(RenderSettings { sampler: description.sampler, integrator: description.integrator })
 }
 
 fn read_text(path: &Path) -> Result<String, SceneFileError> {
@@ -85,7 +86,7 @@ fn read_text(path: &Path) -> Result<String, SceneFileError> {
 ///
 /// # The format
 /// Every table and every key may be left out unless it is said to be required; one that is not known
-/// is an error. Lengths are in scene units, in the left-handed space of the [`Camera`](crate::Camera).
+/// is an error. Lengths are in scene units, in the left-handed space of the [camera](crate::camera).
 /// All numbers are finite.
 ///
 /// | table | key | value | default |
@@ -148,7 +149,7 @@ fn read_text(path: &Path) -> Result<String, SceneFileError> {
 /// );
 ///
 /// let loaded = parse_scene("scene.toml".as_ref(), "[sampler]\nspp = 4", &["sampler.seed=7"])?;
-/// assert_eq!(loaded.scene.sampler().seed, 7);
+/// assert_eq!(loaded.settings.sampler.seed, 7);
 /// # Ok::<(), lobe::scene::SceneFileError>(())
 /// ```
 ///
@@ -162,7 +163,7 @@ pub fn parse_scene(
     let start = Stopwatch::start();
     let document = Document::parse(path, text, overrides)?;
     let description = document.place(describe::describe(&document))?;
-    let (scene, meshes) = document.place(build::build(description, &document))?;
+    let (scene, view, settings, meshes) = document.place(build::build(description, &document))?;
     let seconds = start.seconds() - scene.build_seconds();
-    Ok(LoadedScene { scene, report: LoadReport { seconds, meshes } })
+    Ok(LoadedScene { scene, view, settings, report: LoadReport { seconds, meshes } })
 }

@@ -2,10 +2,12 @@
 
 use std::error::Error;
 
+use lobe::RenderOptions;
 use lobe::metrics::Image;
 use lobe::metrics::convergence::{Bias, Curve, Method, Pool, Reference, Run};
-use lobe::scene::{IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings};
-use lobe::{RenderOptions, Scene};
+use lobe::scene::{
+    IntegratorSettings, LightStrategy, LoadedScene, RenderSettings, SamplerKind, SamplerSettings,
+};
 
 use super::folder::Folder;
 use super::methods::with_strategy;
@@ -14,10 +16,10 @@ use super::steps::Steps;
 
 /// The methods of a chart, and where it stands.
 pub struct Bench<'a> {
-    pub scene: &'a Scene,
+    pub loaded: &'a LoadedScene,
     pub methods: Vec<Method<'a>>,
     /// Of each method.
-    pub settings: Vec<(SamplerSettings, IntegratorSettings)>,
+    pub settings: Vec<RenderSettings>,
     /// What the reader has to know.
     pub notes: Vec<String>,
     pub options: RenderOptions<'a>,
@@ -58,7 +60,7 @@ impl<'a> Bench<'a> {
         let truth_costs = [cost(&reference)?, cost(&check)?];
         let plan = self.agree(limits, &costs, truth_costs, print)?;
         let runs = self.folder.runs()?;
-        let seed = self.scene.sampler().seed;
+        let seed = self.loaded.settings.sampler.seed;
 
         let done_parts = [self.folder.count("reference"), self.folder.count("check")];
         let done = runs.iter().map(|run| self.cost_of(run, &costs)).sum::<f64>()
@@ -83,7 +85,7 @@ impl<'a> Bench<'a> {
             }
             Ok::<Pool, Box<dyn Error>>(pool)
         };
-        let size = self.scene.film().window().size();
+        let size = self.loaded.view.film().window().size();
         let pool = truth(
             "reference",
             &reference,
@@ -126,10 +128,9 @@ impl<'a> Bench<'a> {
         let threads = self.options.threads.map_or(threads, usize::from);
         print.update(format!("{} {threads}", env!("CARGO_PKG_VERSION")).as_bytes());
         let settings = std::mem::take(&mut self.settings);
-        for (method, (sampler, integrator)) in
-            std::mem::take(&mut self.methods).into_iter().zip(settings)
-        {
-            let (image, _) = method.render(4, self.scene.sampler().seed)?;
+        for (method, settings) in std::mem::take(&mut self.methods).into_iter().zip(settings) {
+            let RenderSettings { sampler, integrator } = settings;
+            let (image, _) = method.render(4, self.loaded.settings.sampler.seed)?;
             if let Some(same) =
                 images.iter().position(|known| known.0 == sampler && known.1 == image)
             {
@@ -144,7 +145,7 @@ impl<'a> Bench<'a> {
             }
             costs.push(cost(&method)?);
             images.push((sampler, image));
-            self.settings.push((sampler, integrator));
+            self.settings.push(settings);
             kept.push(method);
         }
         self.methods = kept;
@@ -155,12 +156,13 @@ impl<'a> Bench<'a> {
     /// in one set; and another one to check it by, light sampling alone with independent samples.
     fn truths(&self) -> [Method<'a>; 2] {
         let by = |name: &str, kind, strategy| {
-            let sampler = SamplerSettings { kind, replicates: 1, ..*self.scene.sampler() };
-            let mut integrator = with_strategy(*self.scene.integrator(), strategy);
+            let sampler = SamplerSettings { kind, replicates: 1, ..self.loaded.settings.sampler };
+            let mut integrator = with_strategy(self.loaded.settings.integrator, strategy);
             if let IntegratorSettings::Path { roulette, .. } = &mut integrator {
                 *roulette = false;
             }
-            Method::of_settings(self.scene, name, sampler, integrator, self.options)
+            let settings = RenderSettings { sampler, integrator };
+            Method::of_settings(&self.loaded.scene, &self.loaded.view, name, settings, self.options)
         };
         [
             by("reference", SamplerKind::Sobol, LightStrategy::Mis),
@@ -215,7 +217,7 @@ impl<'a> Bench<'a> {
     ) -> Result<Vec<Run>, Box<dyn Error>> {
         for &spp in &plan.budgets {
             for number in 0..u64::from(plan.seeds) {
-                let seed = self.scene.sampler().seed + 1 + number;
+                let seed = self.loaded.settings.sampler.seed + 1 + number;
                 for (place, method) in self.methods.iter().enumerate() {
                     let is_known = |run: &Run| {
                         run.method == method.name() && run.spp == spp && run.seed == seed

@@ -4,13 +4,15 @@ use std::error::Error;
 use std::fs;
 use std::path::Path;
 
-use lobe::scene::{IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings, read_settings};
+use lobe::scene::{
+    IntegratorSettings, LightStrategy, RenderSettings, SamplerKind, SamplerSettings, read_settings,
+};
 use toml::de::{DeTable, DeValue};
 
 use crate::scene::SceneArguments;
 
 /// A name, and what it stands for.
-pub type Named = (String, SamplerSettings, IntegratorSettings);
+pub type Named = (String, RenderSettings);
 
 const SAMPLERS: [(SamplerKind, &str); 4] = [
     (SamplerKind::Independent, "independent"),
@@ -28,21 +30,25 @@ const STRATEGIES: [(LightStrategy, &str); 4] = [
 
 /// All samplers with the scene's integrator; and with Sobol points the other ways to find light, and the other choice of
 /// roulette.
-pub fn usual(sampler: SamplerSettings, integrator: IntegratorSettings) -> Vec<Named> {
-    let with = |kind| SamplerSettings { kind, ..sampler };
+pub fn usual(settings: RenderSettings) -> Vec<Named> {
+    let RenderSettings { sampler, integrator } = settings;
+    let with = |kind, integrator| RenderSettings {
+        sampler: SamplerSettings { kind, ..sampler },
+        integrator,
+    };
     let mut all: Vec<Named> =
-        SAMPLERS.map(|(kind, name)| (name.to_owned(), with(kind), integrator)).into();
-    let sobol = with(SamplerKind::Sobol);
+        SAMPLERS.map(|(kind, name)| (name.to_owned(), with(kind, integrator))).into();
+    let sobol = |integrator| with(SamplerKind::Sobol, integrator);
     for (other, name) in STRATEGIES {
         let changed = with_strategy(integrator, other);
         if changed != integrator {
-            all.push((format!("sobol, {name}"), sobol, changed));
+            all.push((format!("sobol, {name}"), sobol(changed)));
         }
     }
     if let IntegratorSettings::Path { max_depth, roulette, strategy } = integrator {
         let name = if roulette { "sobol, no roulette" } else { "sobol, roulette" };
         let changed = IntegratorSettings::Path { max_depth, roulette: !roulette, strategy };
-        all.push((name.into(), sobol, changed));
+        all.push((name.into(), sobol(changed)));
     }
     all
 }
@@ -115,9 +121,9 @@ pub fn read(path: &Path, scene: &SceneArguments) -> Result<Vec<Named>, Box<dyn E
         }
         let mut overrides = scene.overrides();
         overrides.extend(own.iter().map(String::as_str));
-        let (sampler, integrator) = read_settings(&scene.path, &overrides)
+        let settings = read_settings(&scene.path, &overrides)
             .map_err(|error| format!("{shown}: method `{name}`: {error}"))?;
-        all.push((name.to_string(), sampler, integrator));
+        all.push((name.to_string(), settings));
     }
     if all.is_empty() { Err(wrong("there is no method in it").into()) } else { Ok(all) }
 }

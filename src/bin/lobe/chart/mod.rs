@@ -137,15 +137,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     // What can be wrong with the arguments comes before what takes time.
     let named = match &arguments.methods {
         Some(path) => methods::read(path, file)?,
-        None => {
-            let (sampler, integrator) = read_settings(&file.path, &file.overrides())?;
-            methods::usual(sampler, integrator)
-        }
+        None => methods::usual(read_settings(&file.path, &file.overrides())?),
     };
     let images: Vec<Image> =
         arguments.add.iter().map(|added| Image::read(&added.path)).collect::<Result<_, _>>()?;
-    let scene = file.load()?.scene;
-    let size = scene.film().window().size();
+    let loaded = file.load()?;
+    let size = loaded.view.film().window().size();
     for (Added { path, .. }, image) in arguments.add.iter().zip(&images) {
         let dark = vec![Spectrum::BLACK; size.x as usize * size.y as usize];
         let like = Image { size, pixels: dark, variance: None, encoding: Encoding::Linear };
@@ -157,13 +154,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         threads: arguments.threads.and_then(|threads| NonZeroUsize::new(threads.into())),
         ..RenderOptions::default()
     };
-    let method = |(name, sampler, integrator): &methods::Named| {
-        Method::of_settings(&scene, name, *sampler, *integrator, options)
+    let method = |(name, settings): &methods::Named| {
+        Method::of_settings(&loaded.scene, &loaded.view, name, *settings, options)
     };
     let mut bench = Bench {
-        scene: &scene,
+        loaded: &loaded,
         methods: named.iter().map(method).collect(),
-        settings: named.iter().map(|(_, sampler, integrator)| (*sampler, *integrator)).collect(),
+        settings: named.iter().map(|(_, settings)| *settings).collect(),
         notes: Vec::new(),
         options,
         folder,

@@ -48,7 +48,7 @@ pub fn html(
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n\
          <title>{title}</title>\n<style>\n{STYLE}</style>\n<h1>{title}</h1>\n"
     );
-    let size = bench.scene.film().window().size();
+    let size = bench.loaded.view.film().window().size();
     let _ = writeln!(
         page,
         "<p>{} × {} pixels, {} triangles, {} threads. Medians of {} seeds; bars are quartiles. Errors are roots of relMSE, \
@@ -56,7 +56,7 @@ pub fn html(
          is taken off. The grey band joins what no other method beats.</p>\n<ul>",
         size.x,
         size.y,
-        bench.scene.accel().triangle_count(),
+        bench.loaded.scene.accel().triangle_count(),
         threads(bench),
         plan.seeds,
         f64::from(Plan::PARTS) * f64::from(plan.part_spp),
@@ -87,7 +87,8 @@ fn pictures(page: &mut String, bench: &Bench, study: &Study) -> Result<(), Box<d
     let mut shots = Vec::new();
     for (method, curve) in bench.methods.iter().zip(&study.curves) {
         let spp = samples_in(curve, time);
-        let (image, [set_up, seconds]) = method.render(spp, bench.scene.sampler().seed + 1)?;
+        let (image, [set_up, seconds]) =
+            method.render(spp, bench.loaded.settings.sampler.seed + 1)?;
         let errors = Errors::between(&image, reference)?;
         let (flip, _) = ErrorMap::flip(&image, reference, Viewing::default())?;
         shots.push((method.name(), spp, set_up + seconds, image, errors, flip.mean()));
@@ -101,7 +102,7 @@ fn pictures(page: &mut String, bench: &Bench, study: &Study) -> Result<(), Box<d
     limits.sort_unstable_by(f32::total_cmp);
     let limit = limits[limits.len() / 2];
     let window = worst(&maps, reference.size);
-    let display = bench.scene.film().display;
+    let display = bench.loaded.view.film().display;
     let _ = writeln!(
         page,
         "<h2>The reference</h2>\n<img class=\"whole\" alt=\"The reference\" src=\"{}\">\n\

@@ -1,0 +1,173 @@
+//! [`PerspectiveCamera`]: what is farther away is smaller.
+
+use glam::{UVec2, Vec2, Vec3, Vec4};
+
+use super::placement::{Axes, check_lens, check_resolution};
+use super::{Camera, CameraError, Handedness};
+use crate::geometry::Ray;
+use crate::geometry::four::{Vec3x4, four, rays_x4};
+use crate::sampling::concentric_disk;
+
+/// How a perspective camera stands and sees. The defaults look from the origin along +z, 90 degrees wide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PerspectiveSettings {
+    /// Where it stands, in world space; each coordinate up to 1e12.
+    pub eye: Vec3,
+    /// A point in the middle of the image, other than `eye`; each coordinate up to 1e12.
+    pub look_at: Vec3,
+    /// A direction that is up in the image, of any length but zero; need not be across the view, but not along it.
+    pub up: Vec3,
+    /// Which kind of space the world is.
+    pub handedness: Handedness,
+    /// Field of view in degrees across the shorter side of the image, above 0 and below 180.
+    pub fov: f32,
+    /// Radius of the lens in scene units, from 0 to 1e12; 0 is a pinhole, which sees everything sharply.
+    pub lens_radius: f32,
+    /// Distance of the plane in focus along the view, in scene units, above 0. Only a lens uses it.
+    pub focal_distance: f32,
+}
+
+impl Default for PerspectiveSettings {
+    fn default() -> Self {
+        Self {
+            eye: Vec3::ZERO,
+            look_at: Vec3::Z,
+            up: Vec3::Y,
+            handedness: Handedness::Left,
+            fov: 90.0,
+            lens_radius: 0.0,
+            focal_distance: 1.0,
+        }
+    }
+}
+
+/// A perspective camera with a thin lens or a pinhole (PBRT 3rd edition, sections 6.2.2 and 6.2.3).
+#[derive(Clone, Copy, Debug)]
+pub struct PerspectiveCamera {
+    settings: PerspectiveSettings,
+    resolution: UVec2,
+    /// To the middle of the image, on the plane at distance 1.
+    forward: Vec3,
+    /// Along one pixel to the right and one down, on the same plane.
+    pixel_x: Vec3,
+    pixel_y: Vec3,
+    half_resolution: Vec2,
+    /// Half the width and half the height of the lens, as vectors in the world.
+    lens: Option<[Vec3; 2]>,
+}
+
+impl PerspectiveCamera {
+    /// A camera for images of `resolution` pixels.
+    ///
+    /// # Errors
+    /// If a setting is out of its range, or if the settings leave open where the camera looks.
+    pub fn new(settings: &PerspectiveSettings, resolution: UVec2) -> Result<Self, CameraError> {
+        let PerspectiveSettings { eye, look_at, up, handedness, fov, lens_radius, focal_distance } =
+            *settings;
+        let Axes { right, up, forward } = Axes::new(eye, look_at, up, handedness)?;
+        if !fov.is_finite() {
+            return Err(CameraError::OutOfRange("fov"));
+        }
+        if fov <= 0.0 || fov >= 180.0 {
+            return Err(CameraError::Fov(fov));
+        }
+        check_lens(lens_radius, focal_distance)?;
+        check_resolution(resolution)?;
+        let shorter_side = f64::from(resolution.min_element());
+        let pixel = 2.0 * (f64::from(fov).to_radians() / 2.0).tan() / shorter_side;
+        let radius = f64::from(lens_radius);
+        Ok(Self {
+            settings: *settings,
+            resolution,
+            forward: forward.as_vec3(),
+            pixel_x: (right * pixel).as_vec3(),
+            pixel_y: (-up * pixel).as_vec3(),
+            half_resolution: resolution.as_vec2() / 2.0,
+            lens: (radius > 0.0).then(|| [(right * radius).as_vec3(), (up * radius).as_vec3()]),
+        })
+    }
+
+    /// The settings it was built from.
+    pub fn settings(&self) -> &PerspectiveSettings {
+        &self.settings
+    }
+
+    /// A pixel's upper left corner, in pixels from the middle of the image.
+    #[inline]
+    fn corner(&self, pixel: UVec2) -> Vec2 {
+        pixel.as_vec2() - self.half_resolution
+    }
+
+    /// The rays of a pinhole, four at a time.
+    fn generate_pinhole_rays(&self, pixel: UVec2, offsets: &[Vec2], rays: &mut [Ray]) {
+        let corner = self.corner(pixel);
+        let [eye, forward, pixel_x, pixel_y] =
+            [self.settings.eye, self.forward, self.pixel_x, self.pixel_y].map(Vec3x4::splat);
+        let direction = |offsets: &[Vec2; 4]| {
+            let x = Vec4::splat(corner.x) + Vec4::from_array(four(|i| offsets[i].x));
+            let y = Vec4::splat(corner.y) + Vec4::from_array(four(|i| offsets[i].y));
+            let through = forward + pixel_x * x + pixel_y * y;
+            through * (1.0 / through.length_squared().sqrt())
+        };
+        let (fours, rest) = offsets.as_chunks::<4>();
+        let (rays_by_four, rays_of_rest) = rays.as_chunks_mut::<4>();
+        // Two times four, so that the processor has something to do while it waits for a root.
+        let (pairs, last) = fours.as_chunks::<2>();
+        let (rays_by_pair, rays_of_last) = rays_by_four.as_chunks_mut::<2>();
+        for ([a, b], rays) in pairs.iter().zip(rays_by_pair) {
+            let (a, b) = (direction(a), direction(b));
+            rays[0] = rays_x4(eye, a, Vec4::INFINITY);
+            rays[1] = rays_x4(eye, b, Vec4::INFINITY);
+        }
+        for (offsets, rays) in last.iter().zip(rays_of_last) {
+            *rays = rays_x4(eye, direction(offsets), Vec4::INFINITY);
+        }
+        for (&offset, ray) in rest.iter().zip(rays_of_rest) {
+            *ray = self.generate_ray(pixel, offset, Vec2::ZERO);
+        }
+    }
+}
+
+impl Camera for PerspectiveCamera {
+    fn resolution(&self) -> UVec2 {
+        self.resolution
+    }
+
+    fn has_lens(&self) -> bool {
+        self.lens.is_some()
+    }
+
+    #[inline]
+    fn generate_ray(&self, pixel: UVec2, offset: Vec2, lens: Vec2) -> Ray {
+        let p = self.corner(pixel) + offset;
+        let through = self.forward + p.x * self.pixel_x + p.y * self.pixel_y;
+        let Some([lens_x, lens_y]) = self.lens else {
+            return Ray::new(self.settings.eye, through.normalize());
+        };
+        // All rays of one film point meet on the plane in focus (PBRT 3rd edition, section 6.2.3).
+        let lens_point = concentric_disk::sample(lens);
+        let on_lens = lens_point.x * lens_x + lens_point.y * lens_y;
+        // Divided by the distance of that plane, which may be too large to multiply by.
+        let d = through - on_lens / self.settings.focal_distance;
+        Ray::new(self.settings.eye + on_lens, d.normalize())
+    }
+
+    fn generate_rays(&self, pixel: UVec2, offsets: &[Vec2], lens: &[Vec2], rays: &mut [Ray]) {
+        if self.lens.is_none() {
+            return self.generate_pinhole_rays(pixel, offsets, rays);
+        }
+        for ((ray, &offset), &lens) in rays.iter_mut().zip(offsets).zip(lens) {
+            *ray = self.generate_ray(pixel, offset, lens);
+        }
+    }
+
+    fn describe(&self) -> String {
+        let PerspectiveSettings { eye, look_at, handedness, fov, .. } = self.settings;
+        let PerspectiveSettings { lens_radius, focal_distance, .. } = self.settings;
+        let lens = match self.has_lens() {
+            true => format!("lens radius {lens_radius}, in focus at {focal_distance}"),
+            false => "pinhole".into(),
+        };
+        format!("{eye} to {look_at}, {fov} degrees, {lens}{}", handedness.note())
+    }
+}

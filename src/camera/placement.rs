@@ -1,0 +1,92 @@
+//! Where a camera stands, and its axes in the world.
+
+use glam::{DVec3, UVec2, Vec3};
+
+use super::CameraError;
+use crate::geometry::float::LARGEST_COORDINATE;
+
+/// On which side of the view the right of the image lies: how a world's axes were meant.
+///
+/// With x to the right and y up, z points away from the viewer in a left-handed space and towards the viewer in a
+/// right-handed one. In a world that was made in the other kind, a camera shows everything mirrored, text included.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Handedness {
+    /// Left-handed, as in PBRT: the right of the image is up × view.
+    #[default]
+    Left,
+    /// Right-handed, as in Blender, glTF and most other programs: the right of the image is view × up.
+    Right,
+}
+
+/// A camera's point of view and its axes, each of unit length and across the others. In f64, so that a camera far from
+/// the origin still looks where it should.
+pub(super) struct Axes {
+    pub right: DVec3,
+    pub up: DVec3,
+    pub forward: DVec3,
+}
+
+impl Axes {
+    /// The axes of a camera at `eye` with `look_at` in the middle of its image.
+    pub fn new(
+        eye: Vec3,
+        look_at: Vec3,
+        up: Vec3,
+        handedness: Handedness,
+    ) -> Result<Self, CameraError> {
+        let within = |v: Vec3| v.abs().max_element() <= LARGEST_COORDINATE && v.is_finite();
+        for (name, in_range) in
+            [("eye", within(eye)), ("look_at", within(look_at)), ("up", up.is_finite())]
+        {
+            if !in_range {
+                return Err(CameraError::OutOfRange(name));
+            }
+        }
+        let [eye, look_at, up]: [DVec3; 3] = [eye, look_at, up].map(DVec3::from);
+        let forward = (look_at - eye).try_normalize().ok_or(CameraError::NoDirection)?;
+        let right =
+            up.normalize_or_zero().cross(forward).try_normalize().ok_or(CameraError::NoUp)?;
+        // Across both before right is flipped: up is up in either kind of world.
+        let up = forward.cross(right);
+        let right = match handedness {
+            Handedness::Left => right,
+            Handedness::Right => -right,
+        };
+        Ok(Self { right, up, forward })
+    }
+}
+
+/// Checks a lens: its radius and the distance of the plane in focus.
+pub(super) fn check_lens(radius: f32, focal_distance: f32) -> Result<(), CameraError> {
+    if radius.is_nan() || radius > LARGEST_COORDINATE {
+        return Err(CameraError::OutOfRange("lens_radius"));
+    }
+    if !focal_distance.is_finite() {
+        return Err(CameraError::OutOfRange("focal_distance"));
+    }
+    if radius < 0.0 {
+        return Err(CameraError::LensRadius(radius));
+    }
+    if focal_distance <= 0.0 {
+        return Err(CameraError::FocalDistance(focal_distance));
+    }
+    Ok(())
+}
+
+/// Checks that an image has pixels.
+pub(super) fn check_resolution(resolution: UVec2) -> Result<(), CameraError> {
+    if resolution.min_element() == 0 {
+        return Err(CameraError::Resolution(resolution.x, resolution.y));
+    }
+    Ok(())
+}
+
+impl Handedness {
+    /// What a description of a camera says of it: nothing of the usual kind.
+    pub(super) fn note(self) -> &'static str {
+        match self {
+            Self::Left => "",
+            Self::Right => ", right-handed",
+        }
+    }
+}
