@@ -2,11 +2,11 @@
 //!
 //! Letters are those of the equations: β path throughput divided by path density, f the Bsdf, Li and Le light
 //! that arrives and is emitted, p densities, w the weight of multiple importance sampling. `wave/` has what
-//! the stages work on, and the same stages for four plain hits at a time.
+//! the stages work on, and the same stages for four flat Lambertian hits at a time.
 
 use arrayvec::ArrayVec;
 
-use super::wave::plain::{BLOCK, Fetched, PlainHits};
+use super::wave::flat::{BLOCK, Fetched, FlatHits};
 use super::wave::{Path, PathRules, Paths, Vertices, power_heuristic};
 use super::{Estimator, Integrator, Wave, dimension};
 use crate::accel::Hit;
@@ -17,8 +17,9 @@ use crate::light::{LightChoice, LightHit, LightSample};
 use crate::sampling::{SampleId, Sampler};
 use crate::scene::{LightStrategy, Scene};
 
-/// Paths from the camera that are joined to a light at each hit, and may also end at one by chance
-/// (PBRT 3rd edition, section 14.5.4; both ways weighed against each other as in section 13.10.1).
+/// Unidirectional path tracing with next-event estimation: at each hit a light is sampled, and the path also
+/// finds lights by itself (PBRT 3rd edition, section 14.5.4). Both are weighed by multiple importance sampling
+/// (section 13.10.1).
 ///
 /// With several lights, one is drawn at each hit: see [`LightSampler`](crate::light::LightSampler). The
 /// estimate is unbiased up to `max_depth` reflections.
@@ -28,8 +29,8 @@ pub struct PathIntegrator {
     /// that takes longer is left out, which darkens what is bright by many reflections. (A faceted ball of
     /// glass in a white furnace, which should give 1, gives 0.9976 with 64 and 1.0000 with 8192.)
     pub max_depth: u32,
-    /// Whether paths that carry little end at random from the fourth reflection on, and those that survive
-    /// count for them.
+    /// Russian roulette: from the fourth reflection on, paths with little throughput end at random, and the
+    /// survivors are weighted up, so that nothing is lost on average.
     pub roulette: bool,
     /// How the directions that light comes from are drawn.
     pub strategy: LightStrategy,
@@ -98,7 +99,7 @@ impl Estimator for PathTracer<'_> {
 }
 
 impl PathTracer<'_> {
-    /// Sorts paths by what their rays met, and adds the light that they met.
+    /// Sorts paths by what their rays hit, and adds the emission of lights that they hit.
     #[inline(never)]
     fn add_emitted(&self, wave: &mut Wave, depth: u32) {
         let Self { scene, rules } = self;
@@ -121,7 +122,7 @@ impl PathTracer<'_> {
             let (path, ray, hit) = (&states[place], &rays[place], &hits[place]);
             if let Some(light) = scene.light_at(hit) {
                 let si = scene.interaction(ray, hit);
-                // As a sample of the light from there would have it: the ray begins a little off.
+                // The surface point, not the offset ray origin: `sample_li` is asked about it, too.
                 let origin = if depth == 0 { ray.o } else { path.p };
                 let at = LightHit::on_surface(origin, &si);
                 radiance[path.sample as usize] += rules.found(scene, light, &at, path);
@@ -181,21 +182,22 @@ impl PathTracer<'_> {
             arena,
             rejected: 0,
         };
-        // Plain hits, four at a time. In short loops, so that the processor sees several turns of each.
+        // Flat Lambertian hits, four at a time, in three short loops: out-of-order execution then overlaps
+        // several iterations of each.
         let mut fetched = Fetched::new();
-        let mut plain = ArrayVec::<_, { BLOCK / 4 }>::new();
-        let (fours, _) = met.active[..met.plain].as_chunks::<4>();
+        let mut flat = ArrayVec::<_, { BLOCK / 4 }>::new();
+        let (fours, _) = met.active[..met.flat].as_chunks::<4>();
         for (block, fours) in fours.chunks(BLOCK / 4).enumerate() {
             for (i, &place) in fours.as_flattened().iter().enumerate() {
                 let (_, ray, hit) = at(place);
                 fetched.set(i, scene, ray, hit);
             }
-            plain.clear();
+            flat.clear();
             for (i, places) in fours.iter().enumerate() {
-                plain.push(PlainHits::new(&fetched, i, four(|i| at(places[i]).0)));
+                flat.push(FlatHits::new(&fetched, i, four(|i| at(places[i]).0)));
             }
-            vertices.scatter_plain(BLOCK * block, &plain);
-            for (i, _) in plain.iter().enumerate().filter(|(_, plain)| !plain.sound) {
+            vertices.scatter_flat(BLOCK * block, &flat);
+            for (i, _) in flat.iter().enumerate().filter(|(_, hits)| !hits.sound) {
                 for (turn, &place) in (BLOCK * block + 4 * i..).zip(&fours[i]) {
                     scatter_one(&mut vertices, turn, at(place));
                 }
@@ -230,7 +232,7 @@ fn scatter_one(vertices: &mut Vertices, turn: usize, (path, ray, hit): (&Path, &
         } else {
             (bsdf.f(wo, wi, all), 1.0)
         };
-        // Light that will not be reflected need not be asked for.
+        // No shadow ray for light that is not reflected.
         if !f.is_black() {
             let carried = beta * f * li * (bsdf.abs_cos_theta(wi) * w / pdf);
             let ray = from.map_or_else(|| si.spawn_ray(wi), |from| si.spawn_ray_to(from));
@@ -251,7 +253,7 @@ fn scatter_one(vertices: &mut Vertices, turn: usize, (path, ray, hit): (&Path, &
     let mut next = Path {
         beta: beta * sample.f * (bsdf.abs_cos_theta(sample.wi) / sample.pdf),
         p: si.p(),
-        // A light's own samples never take the direction of a delta lobe.
+        // Light sampling never finds the direction of a delta lobe: no weight for it.
         pdf: if sample.is_specular() { f32::INFINITY } else { sample.pdf },
         eta_scale: path.eta_scale * sample.eta * sample.eta,
         sample: path.sample,
@@ -264,8 +266,7 @@ fn scatter_one(vertices: &mut Vertices, turn: usize, (path, ray, hit): (&Path, &
         vertices.next_states.push(next);
         vertices.next_rays.push(ray);
     } else {
-        // All that is left to be found surrounds the scene: whether anything stands before it is a question
-        // for a shadow ray.
+        // Only lights that surround the scene are left to be found: a shadow ray tells whether they are.
         let found = rules.escaped(scene, next.p, sample.wi, &next);
         if !found.is_black() {
             vertices.shadow.push(next.sample as usize, ray, found);

@@ -113,7 +113,8 @@ impl SceneBuilder {
                 },
                 None => Arc::new(MatteMaterial::new(Spectrum::BLACK)),
             };
-            let plain = material.constant_lambertian().filter(|_| mesh.normals.is_empty());
+            let flat_lambertian =
+                material.constant_lambertian().filter(|_| mesh.normals.is_empty());
             // A mesh without area can neither be seen nor shine.
             let light = emission
                 .and_then(|Emission { radiance, two_sided }| {
@@ -123,16 +124,23 @@ impl SceneBuilder {
                     lights.push(Arc::new(light));
                     lights.len() - 1
                 });
-            shapes.push(Shape { name, material, light, plain });
+            shapes.push(Shape { name, material, light, flat_lambertian });
             meshes.push(mesh);
         }
         let triangles = meshes.iter().map(|mesh| mesh.indices.len()).sum();
         if triangles > Accel::MOST_TRIANGLES {
             return Err(SceneError::TooManyTriangles(triangles));
         }
-        let is_plain = shapes.iter().all(|shape| shape.plain.is_some());
+        let is_flat_lambertian = shapes.iter().all(|shape| shape.flat_lambertian.is_some());
         let start = Stopwatch::start();
         let accel = Accel::build(&meshes);
-        Ok(Scene { shapes, meshes, lights, is_plain, accel, build_seconds: start.seconds() })
+        Ok(Scene {
+            shapes,
+            meshes,
+            lights,
+            is_flat_lambertian,
+            accel,
+            build_seconds: start.seconds(),
+        })
     }
 }

@@ -54,8 +54,8 @@ pub struct Scene {
     shapes: Vec<Shape>,
     meshes: Vec<TriangleMesh>,
     lights: Vec<Arc<dyn Light>>,
-    /// Whether each shape has its one lobe in `plain`.
-    is_plain: bool,
+    /// Whether `flat_lambertian` is known for all shapes.
+    is_flat_lambertian: bool,
     accel: Accel,
     build_seconds: f64,
 }
@@ -67,7 +67,7 @@ struct Shape {
     /// Index of its area light, if it emits.
     light: Option<usize>,
     /// The constant lobe, if the shape is flat-shaded and has no other.
-    plain: Option<LambertianReflection>,
+    flat_lambertian: Option<LambertianReflection>,
 }
 
 impl Scene {
@@ -118,14 +118,14 @@ impl Scene {
 
     /// The constant lobe of a flat-shaded surface at a hit that has no other; `None` for others and for a miss.
     #[inline]
-    pub(crate) fn plain(&self, hit: &Hit) -> Option<&LambertianReflection> {
-        self.shapes.get(hit.shape as usize)?.plain.as_ref()
+    pub(crate) fn flat_lambertian(&self, hit: &Hit) -> Option<&LambertianReflection> {
+        self.shapes.get(hit.shape as usize)?.flat_lambertian.as_ref()
     }
 
-    /// Whether [`Scene::plain`] knows the lobe of every surface.
+    /// Whether [`Scene::flat_lambertian`] knows the lobe of every surface.
     #[inline]
-    pub(crate) fn is_plain(&self) -> bool {
-        self.is_plain
+    pub(crate) fn is_flat_lambertian(&self) -> bool {
+        self.is_flat_lambertian
     }
 
     /// The vertices of the triangle that was hit.

@@ -1,4 +1,4 @@
-//! [`Paths`]: the paths of a wave, and the buffers of the stages that they go through.
+//! [`Paths`]: the paths of a wave, and the buffers of the stages that process them.
 
 use glam::{Vec2, Vec3};
 
@@ -8,24 +8,24 @@ use crate::sampling::SampleId;
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 
-/// What is known of a path beside its ray.
+/// The state of a path, beside its ray.
 #[derive(Clone, Copy)]
 pub struct Path {
     /// β: path throughput divided by path density.
     pub beta: Spectrum,
-    /// Where its ray begins, before the origin was moved off the surface. Nothing of use for a ray from the
-    /// camera, which begins where it begins.
+    /// The surface point that its ray leaves, before the origin was offset. Not used for camera rays.
     pub p: Vec3,
     /// Density over solid angle of the ray's direction; infinite from the camera and from delta lobes.
     pub pdf: f32,
-    /// How much radiance was squeezed by refraction on the way: eta² of all boundaries. It has no part in
-    /// whether a path is worth to go on.
+    /// Product of η² over all boundaries crossed. Radiance is scaled by 1/η² there; Russian roulette
+    /// undoes that, since the factor says nothing about what the path will find.
     pub eta_scale: f32,
-    /// The sample's number in the wave.
+    /// Index of its sample in the wave.
     pub sample: u32,
 }
 
-/// Sample values of the paths that go on, each empty unless it is asked for.
+/// Sample values of the active paths, one buffer for each use. A buffer that a scene has no use for stays
+/// empty.
 #[derive(Default)]
 pub struct Values {
     pub ids: Vec<SampleId>,
@@ -35,24 +35,24 @@ pub struct Values {
     pub roulette: Vec<f32>,
 }
 
-/// The paths of a wave. Element i of `states`, `rays` and `hits` belongs to the same path. Before the first
-/// reflection `first` stands for the states, and rays and hits are those of the wave itself.
+/// The paths of a wave. Element i of `states`, `rays` and `hits` belongs to the same path. At depth 0 the
+/// states are `first`, and rays and hits are those of the wave.
 #[derive(Default)]
 pub struct Paths {
-    /// The states of paths that begin: alike in all waves.
+    /// The states of camera paths, which are the same in all waves.
     pub first: Vec<Path>,
     pub states: Vec<Path>,
     pub rays: Vec<Ray>,
     pub hits: Vec<Hit>,
     pub met: Met,
     pub values: Values,
-    /// What becomes of `states` and `rays` after the reflection.
+    /// `states` and `rays` at the next depth.
     pub next_states: Vec<Path>,
     pub next_rays: Vec<Ray>,
 }
 
 impl Paths {
-    /// Room for so many paths.
+    /// Buffers with capacity for `paths` paths.
     pub fn with_capacity(paths: usize) -> Self {
         Self {
             first: Vec::with_capacity(paths),
@@ -61,7 +61,7 @@ impl Paths {
             hits: Vec::with_capacity(paths),
             met: Met {
                 active: Vec::with_capacity(paths),
-                plain: 0,
+                flat: 0,
                 others: Vec::with_capacity(paths),
                 escaped: Vec::with_capacity(paths),
             },
@@ -77,7 +77,7 @@ impl Paths {
         }
     }
 
-    /// Starts with so many camera rays.
+    /// Starts `rays` paths at the camera.
     pub fn start(&mut self, rays: usize) {
         let new = self.first.len()..rays;
         self.first.extend(new.map(|sample| Path {
@@ -89,40 +89,41 @@ impl Paths {
         }));
     }
 
-    /// Finds what the next rays hit, and returns how many they are.
+    /// Moves to the next depth: intersects the next rays, and returns their number.
     pub fn trace(&mut self, scene: &Scene) -> u64 {
         std::mem::swap(&mut self.states, &mut self.next_states);
         std::mem::swap(&mut self.rays, &mut self.next_rays);
         self.next_states.clear();
         self.next_rays.clear();
-        // What is left of other rays is overwritten.
+        // Old hits are overwritten.
         self.hits.resize(self.rays.len(), Hit::MISS);
         scene.accel().intersect(&self.rays, &mut self.hits);
         self.rays.len() as u64
     }
 }
 
-/// Places of paths, by what these have met.
+/// Indices of paths, sorted by what their rays hit.
 #[derive(Default)]
 pub struct Met {
-    /// A surface, plain ones first: see [`Scene::plain`].
+    /// Those that hit a surface, flat Lambertian ones first: see [`Scene::flat_lambertian`].
     pub active: Vec<u32>,
-    /// How many of these are plain.
-    pub plain: usize,
-    /// Nothing.
+    /// How many of `active` are on flat Lambertian surfaces.
+    pub flat: usize,
+    /// Those that hit nothing.
     pub escaped: Vec<u32>,
-    /// For those that are not plain.
+    /// Buffer for the others, while they are sorted.
     others: Vec<u32>,
 }
 
 impl Met {
-    /// Sorts the paths by what they have met.
+    /// Sorts the paths by what they hit.
     #[inline(never)]
     pub fn sort(&mut self, scene: &Scene, hits: &[Hit]) {
         let Self { active, others, escaped, .. } = self;
         active.resize(hits.len(), 0);
         escaped.resize(hits.len(), 0);
-        // Each is written to both, and counted where it belongs: a branch would be hard to foresee.
+        // Branch-free: each index is written to both lists, and only one list grows. A branch would be
+        // mispredicted often.
         let mut found = 0;
         for ((place, hit), number) in hits.iter().enumerate().zip(0..) {
             active[found] = number;
@@ -131,22 +132,24 @@ impl Met {
         }
         active.truncate(found);
         escaped.truncate(hits.len() - found);
-        self.plain = found;
-        if !scene.is_plain() {
+        self.flat = found;
+        if !scene.is_flat_lambertian() {
             others.clear();
             others.extend(
-                active.iter().filter(|&&place| scene.plain(&hits[place as usize]).is_none()),
+                active
+                    .iter()
+                    .filter(|&&place| scene.flat_lambertian(&hits[place as usize]).is_none()),
             );
-            active.retain(|&place| scene.plain(&hits[place as usize]).is_some());
-            self.plain = active.len();
+            active.retain(|&place| scene.flat_lambertian(&hits[place as usize]).is_some());
+            self.flat = active.len();
             active.extend_from_slice(others);
         }
     }
 }
 
 impl Path {
-    /// Lets the path end at random, the likelier the less it carries, and its beta make up for it if it does not
-    /// (PBRT 3rd edition, section 14.5.4). `u` in `[0, 1)`.
+    /// Russian roulette: whether the path goes on, which weights its beta up (PBRT 3rd edition, section
+    /// 14.5.4). `u` in `[0, 1)`.
     #[inline]
     pub fn survives(&mut self, u: f32) -> bool {
         let survival = (self.beta * self.eta_scale).max_component().min(1.0);

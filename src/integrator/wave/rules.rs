@@ -1,7 +1,7 @@
-//! [`PathRules`]: what paths do at each depth, and how they look for light.
+//! [`PathRules`]: which stages paths need at each depth, and how they sample lights.
 //!
-//! A stage that a scene has no use for is left out: without lights that rays can meet nothing is looked for
-//! there, with one light none is chosen, and where nothing is left to be found no direction is drawn.
+//! A stage that a scene has no use for is left out: without emissive surfaces hits are not searched for them,
+//! with a single light none is chosen, and where no light is left to be found no direction is sampled.
 
 use glam::Vec3;
 
@@ -14,21 +14,21 @@ use crate::spectrum::Spectrum;
 pub struct PathRules {
     pub max_depth: u32,
     roulette: bool,
-    /// Which lights are sampled at a hit.
+    /// Chooses the lights that are sampled at a hit.
     pub lights: LightSampler,
-    /// Whether a light that is sampled has an extent, and so asks for a place.
+    /// Whether any sampled light has an extent, and so needs a 2D sample.
     pub has_places: bool,
-    /// By light: whether rays can meet it.
+    /// For each light: whether rays can hit it.
     visible: Vec<bool>,
-    /// Lights that rays find which leave the scene.
+    /// Indices of the lights that surround the scene.
     pub infinite: Vec<usize>,
-    /// Whether there are lights that rays can meet on surfaces.
+    /// Whether any surface emits light.
     pub on_surfaces: bool,
-    /// Whether what a ray meets counts, other than through delta lobes and from the camera.
+    /// Whether lights found by reflection count after non-delta events (all strategies but `Light`).
     finds: bool,
 }
 
-/// From which reflection on paths may end at random (PBRT 3rd edition, section 14.5.4).
+/// The depth at which Russian roulette starts (PBRT 3rd edition, section 14.5.4).
 const ROULETTE_FROM: u32 = 3;
 
 impl PathRules {
@@ -60,50 +60,50 @@ impl PathRules {
         }
     }
 
-    /// Whether there is any light to be found.
+    /// Whether the scene has any light.
     pub fn finds_light(&self) -> bool {
         self.lights.slots() > 0 || self.on_surfaces || !self.infinite.is_empty()
     }
 
-    /// Whether anything could be made of a ray that leaves a hit after so many reflections.
+    /// Whether a ray that leaves a vertex of this depth can contribute anything.
     #[inline]
     pub fn goes_on(&self, depth: u32) -> bool {
         depth + 1 < self.max_depth || self.on_surfaces || !self.infinite.is_empty()
     }
 
-    /// Whether paths may end at random after so many reflections. The last ray of a path looks for lights
-    /// alone: it is not worth a throw.
+    /// Whether Russian roulette is played at this depth. The last ray only looks for lights: ending it early
+    /// would save nothing.
     #[inline]
     pub fn throws(&self, depth: u32) -> bool {
         self.roulette && depth >= ROULETTE_FROM && depth + 1 < self.max_depth
     }
 
-    /// Whether it matters what a ray meets that leaves a hit after so many reflections, not only whether it
-    /// meets anything.
+    /// Whether the closest hit of a ray that leaves a vertex of this depth is needed, not only whether there
+    /// is any.
     #[inline]
     pub fn walks_on(&self, depth: u32) -> bool {
         depth + 1 < self.max_depth || self.on_surfaces
     }
 
-    /// Whether samples of this light are weighed against finding it by reflection.
+    /// Whether samples of this light are weighed by multiple importance sampling.
     #[inline]
     pub fn weighs(&self, light: usize) -> bool {
         self.finds && self.visible[light]
     }
 
-    /// What a path brings home that leaves the scene from `origin` along `wi`.
+    /// Weighted radiance of a path that leaves the scene from `origin` along `wi`.
     #[inline]
     pub fn escaped(&self, scene: &Scene, origin: Vec3, wi: Vec3, path: &Path) -> Spectrum {
         let at = LightHit::outside(origin, wi);
         self.infinite.iter().map(|&number| self.found(scene, number, &at, path)).sum()
     }
 
-    /// What a path brings home that ends at a light, weighed against the light's own samples.
+    /// Weighted radiance of a path that ends at a light.
     #[inline]
     pub fn found(&self, scene: &Scene, number: usize, at: &LightHit, path: &Path) -> Spectrum {
         let light = &*scene.lights()[number];
         let probability = self.lights.probability(number);
-        // The camera and delta lobes leave the light's own samples nothing.
+        // Light sampling cannot find this path: it comes from the camera or from a delta lobe.
         let weight = if path.pdf == f32::INFINITY || probability == 0.0 {
             1.0
         } else if self.finds {
@@ -115,11 +115,11 @@ impl PathRules {
     }
 }
 
-/// The weight of a sample drawn with density `a` where another way to draw it has density `b`
-/// (Veach 1997, section 9.2.4, with exponent 2).
+/// The power heuristic: the weight of a sample drawn with density `a` that another technique draws with
+/// density `b` (Veach 1997, section 9.2.4, with exponent 2).
 #[inline]
 pub fn power_heuristic(a: f32, b: f32) -> f32 {
-    // By the ratio: squares of densities leave the range of f32.
+    // By the ratio: squares of densities overflow f32.
     let ratio = b / a;
     1.0 / (1.0 + ratio * ratio)
 }

@@ -1,12 +1,14 @@
-//! [`Vertices`]: the stage of a wave that turns hits into shadow rays and next rays.
+//! [`Vertices`]: the stage that turns the hits of a wave into shadow rays and next rays.
 
 use glam::{Vec2, Vec4};
 
+use super::compact::push_x4;
+use super::dimension;
+use super::flat::{BLOCK, FlatHits};
+use super::flat_lights::LightSamples;
 use super::paths::{Path, Values};
-use super::plain::{BLOCK, PlainHits, push_x4};
-use super::plain_lights::LightSamples;
 use super::rules::PathRules;
-use super::{ShadowRays, dimension};
+use super::shadow_rays::ShadowRays;
 use crate::bxdf::Arena;
 use crate::geometry::Ray;
 use crate::geometry::four::{Vec3x4, four, rays_x4};
@@ -15,8 +17,8 @@ use crate::sampling::Sampler;
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 
-/// The vertices of a wave's paths after the same number of reflections: what is known of them, and what comes
-/// of them. The place of a path among them is its turn.
+/// The path vertices of a wave at one depth: the inputs and outputs of that stage. `turn` is the index of a
+/// vertex among the active paths, by which `values` are ordered.
 pub struct Vertices<'a> {
     pub rules: &'a PathRules,
     pub scene: &'a Scene,
@@ -31,7 +33,7 @@ pub struct Vertices<'a> {
 }
 
 impl Vertices<'_> {
-    /// Which light is asked in one of the vertex's slots, and the place on it.
+    /// The light that a vertex samples in this slot, and the sample value for a point on it.
     #[inline]
     pub fn drawn(&self, slot: usize, turn: usize) -> (usize, Vec2) {
         let Self { rules, values, .. } = self;
@@ -39,7 +41,7 @@ impl Vertices<'_> {
         (rules.lights.pick(slot, choice), self.place(slot, turn))
     }
 
-    /// The place on the light that is asked in one of the vertex's slots.
+    /// The sample value for a point on the light of this slot.
     #[inline]
     fn place(&self, slot: usize, turn: usize) -> Vec2 {
         let Self { rules, values, sampler, .. } = self;
@@ -52,10 +54,10 @@ impl Vertices<'_> {
         }
     }
 
-    /// Light samples and next rays of up to a block of plain hits, of which the first has this turn. Those that
-    /// are not sound are left to the caller.
+    /// Samples lights and next rays for a block of flat Lambertian hits that starts at `turn`. Hits that are
+    /// not `sound` are left to the caller.
     #[inline(always)]
-    pub fn scatter_plain(&mut self, turn: usize, block: &[PlainHits]) {
+    pub fn scatter_flat(&mut self, turn: usize, block: &[FlatHits]) {
         for slot in 0..self.rules.lights.slots() {
             self.sample_lights(slot, turn, block);
         }
@@ -66,9 +68,9 @@ impl Vertices<'_> {
         }
     }
 
-    /// Sends shadow rays from plain hits to the light of a slot, or from each to the light that it drew.
+    /// Pushes shadow rays to the light of a slot, or to the light that each hit has drawn.
     #[inline(always)]
-    fn sample_lights(&mut self, slot: usize, turn: usize, block: &[PlainHits]) {
+    fn sample_lights(&mut self, slot: usize, turn: usize, block: &[FlatHits]) {
         let Self { rules, scene, .. } = *self;
         if rules.lights.draws() {
             for (i, hits) in block.iter().enumerate().filter(|(_, hits)| hits.sound) {
@@ -93,17 +95,17 @@ impl Vertices<'_> {
         }
     }
 
-    /// Sends shadow rays to where light comes from.
+    /// Pushes shadow rays for light samples that are reflected.
     #[inline(always)]
-    fn send(&mut self, hits: &PlainHits, lights: &LightSamples) {
+    fn send(&mut self, hits: &FlatHits, lights: &LightSamples) {
         if let Some((mask, rays, carried)) = lights.reflected(hits) {
             self.shadow.push_x4(mask, hits.paths, &rays, &carried);
         }
     }
 
-    /// The next rays of four plain hits.
+    /// Samples the next rays of four hits.
     #[inline(always)]
-    fn step(&mut self, turn: usize, hits: &PlainHits) {
+    fn step(&mut self, turn: usize, hits: &FlatHits) {
         let Self { rules, scene, values, depth, .. } = *self;
         let u = four(|i| values.direction[turn + i]);
         let (mut mask, mut paths, wi) = hits.step(u);

@@ -1,8 +1,8 @@
-//! [`LightSamples`]: light that may arrive at four hits.
+//! [`LightSamples`]: light samples of four hits.
 
 use glam::{BVec4A, Vec2, Vec4};
 
-use super::plain::PlainHits;
+use super::flat::FlatHits;
 use super::rules::PathRules;
 use crate::geometry::Ray;
 use crate::geometry::float::ONE_MINUS_EPSILON;
@@ -11,10 +11,10 @@ use crate::light::{LightSamplesX4, one_by_one};
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 
-/// Light samples, and what else is known of them.
+/// Light samples with what their weights need.
 pub struct LightSamples {
     samples: LightSamplesX4,
-    /// Whether reflection may find the same light.
+    /// Whether they are weighed by multiple importance sampling.
     weighed: BVec4A,
 }
 
@@ -27,7 +27,7 @@ impl LightSamples {
         Self { samples, weighed }
     }
 
-    /// A sample for each of the points `p`, of the light with the number beside its place on the light.
+    /// A sample for each of the points `p`, of the light with this index, by this sample value.
     pub fn of_any(rules: &PathRules, scene: &Scene, p: Vec3x4, drawn: [(usize, Vec2); 4]) -> Self {
         let mut samples = one_by_one(p, |i, p| {
             let (light, u) = drawn[i];
@@ -37,9 +37,10 @@ impl LightSamples {
         Self { samples, weighed: BVec4A::from_array(four(|i| rules.weighs(drawn[i].0))) }
     }
 
-    /// Shadow rays, and what each carries, if there are any. Bit i of the mask is for the i-th.
+    /// Shadow rays and the radiance that each carries; bit i of the mask tells whether hit i has one. `None`
+    /// if there are none.
     #[inline(always)]
-    pub fn reflected(&self, hits: &PlainHits) -> Option<(u32, [Ray; 4], [Spectrum; 4])> {
+    pub fn reflected(&self, hits: &FlatHits) -> Option<(u32, [Ray; 4], [Spectrum; 4])> {
         let LightSamplesX4 { exists, ref li, wi, pdf, from, is_near } = self.samples;
         let (reflect, wi_n) = hits.reflect(wi);
         let mask = (reflect & exists).bitmask();

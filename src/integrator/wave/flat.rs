@@ -1,4 +1,4 @@
-//! [`PlainHits`]: the most common hits by far, four at a time.
+//! [`FlatHits`]: hits on flat-shaded triangles with one constant Lambertian lobe, four at a time.
 
 use glam::{BVec4A, Vec2, Vec3, Vec4};
 
@@ -11,22 +11,21 @@ use crate::sampling::cosine_hemisphere;
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 
-/// How many hits are worked on together: what is known of them stays in the first-level cache.
+/// How many hits are processed together, so that their data stay in the first-level cache.
 pub const BLOCK: usize = 64;
 
-/// What has to be fetched for hits on flat triangles with one constant Lambertian lobe, each number in a row
-/// of its own.
+/// What is fetched from memory for a block of hits, as a structure of arrays.
 pub struct Fetched {
-    /// By corner and axis.
+    /// Indexed by corner, then axis.
     corners: [[[f32; BLOCK]; 3]; 3],
     weights: [[f32; BLOCK]; 3],
     d: [[f32; BLOCK]; 3],
-    /// The value of the lobe.
+    /// Value of the lobe.
     f: [Spectrum; BLOCK],
 }
 
 impl Fetched {
-    /// Room for a block.
+    /// An empty block.
     pub fn new() -> Self {
         let rows = [[0.0; BLOCK]; 3];
         Self { corners: [rows; 3], weights: rows, d: rows, f: [Spectrum::BLACK; BLOCK] }
@@ -38,8 +37,8 @@ impl Fetched {
     /// If it is of another kind.
     #[inline(always)]
     pub fn set(&mut self, i: usize, scene: &Scene, ray: &Ray, hit: &Hit) {
-        let lobe = scene.plain(hit).expect("only plain hits are handed in");
-        // It looks at no directions.
+        let lobe = scene.flat_lambertian(hit).expect("the caller sorts hits by kind");
+        // The value does not depend on directions.
         self.f[i] = lobe.f(Vec3::Z, Vec3::Z);
         for (rows, corner) in self.corners.iter_mut().zip(scene.corners(hit)) {
             set(rows, i, corner.to_array());
@@ -56,32 +55,32 @@ fn set(rows: &mut [[f32; BLOCK]; 3], i: usize, values: [f32; 3]) {
     }
 }
 
-/// Four neighbours in each of three rows.
+/// Four consecutive elements of each of three rows.
 #[inline(always)]
 fn get(rows: &[[f32; BLOCK]; 3], four: usize) -> Vec3x4 {
     let [x, y, z] = three(|i| Vec4::from_array(rows[i].as_chunks::<4>().0[four]));
     Vec3x4 { x, y, z }
 }
 
-/// Four such hits.
+/// Four hits.
 ///
-/// All that is found here is found by the same operations as with a [`SurfaceInteraction`] and a [`Bsdf`],
-/// in the same order, so that both give the same bits.
+/// All results come from the same operations in the same order as those of [`SurfaceInteraction`] and
+/// [`Bsdf`], so both give the same bits.
 ///
 /// [`SurfaceInteraction`]: crate::interaction::SurfaceInteraction
 /// [`Bsdf`]: crate::bxdf::Bsdf
-pub struct PlainHits<'a> {
+pub struct FlatHits<'a> {
     pub paths: [&'a Path; 4],
     pub at: BoundedPointx4,
     pub n: Vec3x4,
-    /// Whether all normals could be found in f32. If not, nothing here is of use.
+    /// Whether all normals could be computed in f32. If not, the hits must be processed one by one.
     pub sound: bool,
     f: [Spectrum; 4],
     wo_n: Vec4,
 }
 
-impl<'a> PlainHits<'a> {
-    /// The hits of a block that have these paths, of which `four` fours go before.
+impl<'a> FlatHits<'a> {
+    /// The hits number 4 `four` to 4 `four` + 3 of a block, which belong to these paths.
     #[inline(always)]
     pub fn new(fetched: &Fetched, four: usize, paths: [&'a Path; 4]) -> Self {
         let corners = three(|corner| get(&fetched.corners[corner], four));
@@ -92,7 +91,7 @@ impl<'a> PlainHits<'a> {
         Self { paths, at, n, sound, f: fetched.f.as_chunks::<4>().0[four], wo_n }
     }
 
-    /// Which hits reflect light from `wi`, and the cosines between these and the normals.
+    /// Which hits reflect light from `wi`, and the cosines of `wi` with the normals.
     #[inline(always)]
     pub fn reflect(&self, wi: Vec3x4) -> (BVec4A, Vec4) {
         let wi_n = wi.dot(self.n);
@@ -109,14 +108,13 @@ impl<'a> PlainHits<'a> {
         Vec4::select(same, wi_n.abs() * Vec4::splat(std::f32::consts::FRAC_1_PI), zero)
     }
 
-    /// What the paths carry times the lobes.
+    /// β f.
     #[inline(always)]
     pub fn reflected(&self) -> [Spectrum; 4] {
         four(|i| self.paths[i].beta * self.f[i])
     }
 
-    /// The paths with one more reflection, and the directions in which they go on. Bit i of the mask is for the
-    /// i-th.
+    /// Samples the next directions. Bit i of the mask tells whether path i goes on.
     #[inline(always)]
     pub fn step(&self, u: [Vec2; 4]) -> (u32, [Path; 4], Vec3x4) {
         let mut local = cosine_hemisphere::sample_x4(u);
@@ -135,21 +133,5 @@ impl<'a> PlainHits<'a> {
             Path { beta, p: p[i].truncate(), pdf: p[i].w, ..*path }
         });
         (mask, paths, wi)
-    }
-}
-
-/// Adds the values whose bits in the mask are set.
-///
-/// If these are not all, each is written, and the next one over those that do not count: which these are would
-/// be hard to foresee for a branch.
-#[inline(always)]
-pub fn push_x4<T: Copy>(to: &mut Vec<T>, mask: u32, values: &[T; 4]) {
-    if mask == 0b1111 {
-        to.extend_from_slice(values);
-        return;
-    }
-    for (i, &value) in values.iter().enumerate() {
-        to.push(value);
-        to.truncate(to.len() - (!mask >> i & 1) as usize);
     }
 }

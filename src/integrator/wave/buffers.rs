@@ -1,0 +1,83 @@
+//! [`Wave`]: the samples that go through an integrator together, and the buffers of one worker.
+
+use glam::{Vec2, Vec3};
+
+use super::counters::Counters;
+use super::dimension;
+use super::paths::Paths;
+use super::shadow_rays::ShadowRays;
+use crate::accel::Hit;
+use crate::bxdf::Arena;
+use crate::camera;
+use crate::geometry::Ray;
+use crate::sampling::{SampleId, Sampler};
+use crate::scene::{Scene, View};
+use crate::spectrum::Spectrum;
+
+/// A batch of camera samples, and the buffers that one worker reuses for each batch. Element i of ids, rays, hits and radiance belongs to the same sample.
+#[derive(Default)]
+pub struct Wave {
+    /// Pixel and index.
+    pub ids: Vec<SampleId>,
+    /// Sample values for the points of pixel and lens.
+    film: Vec<Vec2>,
+    lens: Vec<Vec2>,
+    /// Rays from the camera.
+    pub rays: Vec<Ray>,
+    /// Their hits.
+    pub hits: Vec<Hit>,
+    /// The radiance that arrives along them.
+    pub radiance: Vec<Spectrum>,
+    /// Rays towards lights.
+    pub shadow: ShadowRays,
+    /// Paths under way.
+    pub(crate) paths: Paths,
+    /// Memory for lobes.
+    pub arena: Arena,
+    /// What was done so far.
+    pub counters: Counters,
+}
+
+impl Wave {
+    /// A wave with room for `samples` samples, and for `shadow_rays` rays towards lights from each.
+    pub fn with_capacity(samples: usize, shadow_rays: usize) -> Self {
+        Self {
+            ids: Vec::with_capacity(samples),
+            film: Vec::with_capacity(samples),
+            lens: Vec::with_capacity(samples),
+            rays: Vec::with_capacity(samples),
+            hits: Vec::with_capacity(samples),
+            radiance: Vec::with_capacity(samples),
+            shadow: ShadowRays::with_capacity(samples * shadow_rays),
+            paths: Paths::with_capacity(samples),
+            ..Self::default()
+        }
+    }
+
+    /// Generates the camera rays of the samples in `ids`, and intersects them with the scene.
+    pub fn begin(&mut self, scene: &Scene, view: &View, sampler: &dyn Sampler) {
+        let Self { ids, film, lens, rays, hits, radiance, counters, .. } = self;
+        sampler.fill_2d(ids, dimension::FILM, film);
+        if view.camera().has_lens() {
+            sampler.fill_2d(ids, dimension::LENS, lens);
+        } else {
+            lens.clear();
+            lens.resize(ids.len(), Vec2::ZERO);
+        }
+        view.generate_rays(ids, film, lens, rays);
+        radiance.clear();
+        radiance.resize(rays.len(), Spectrum::BLACK);
+        for (ray, radiance) in rays.iter_mut().zip(&mut *radiance) {
+            if !camera::prepare(ray) {
+                // Hits nothing; and whatever is added to NaN, the film leaves the sample out.
+                *ray = Ray { t_max: -1.0, ..Ray::new(Vec3::ZERO, Vec3::Z) };
+                *radiance = Spectrum::splat(f32::NAN);
+                counters.refused_camera_rays += 1;
+            }
+        }
+        counters.camera_rays += rays.len() as u64;
+        // Old hits are overwritten.
+        hits.resize(rays.len(), Hit::MISS);
+        scene.accel().intersect(rays, hits);
+    }
+}
