@@ -1,112 +1,92 @@
-//! A reflection model of one's own: a Phong lobe over a diffuse base, on a torus.
+//! A reflection model of one's own: smooth glass, in a white furnace.
 //!
-//! `cargo run --release --example custom_bxdf [FILE.png]`
+//! Under a sky of radiance 1 a body that absorbs nothing cannot be seen: every pixel is 1.
+//!
+//! `cargo run --release --example custom_bxdf`
 
 mod torus;
 
-use std::f32::consts::{PI, TAU};
-use std::path::Path;
-
-use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, BxdfSample, LambertianReflection, TransportMode};
-use lobe::film::{Display, Metadata, write_png};
-use lobe::geometry::{Frame, reflect};
-use lobe::glam::{Affine3A, Vec2, Vec3};
+use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, BxdfSample};
+use lobe::geometry::{reflect, refract};
+use lobe::glam::{Vec2, Vec3};
 use lobe::interaction::SurfaceInteraction;
+use lobe::light::SkyLight;
 use lobe::material::Material;
-use lobe::scene::{IntegratorSettings, SamplerKind, SamplerSettings};
 use lobe::{
-    FilmSettings, PerspectiveSettings, PointLight, RenderOptions, RenderSettings, Scene, Spectrum,
-    View, render,
+    FilmSettings, PerspectiveSettings, RenderOptions, RenderSettings, Scene, Spectrum, View, render,
 };
 
-/// Light spread around the mirror direction r: f = R (n + 2)/(2π) (r · wi)ⁿ, the modified Phong model of
-/// Lafortune and Willems 1994, which is reciprocal and keeps energy.
-#[derive(Clone, Copy)]
-struct PhongLobe {
-    r: Spectrum,
-    exponent: f32,
+/// A smooth boundary of dielectrics: reflects by Fresnel's equations, and refracts the rest.
+struct Glass {
+    /// Index of refraction inside, over that outside.
+    eta: f32,
 }
 
-impl PhongLobe {
-    /// The cosine between `wi` and the mirror direction of `wo`.
-    fn cos_alpha(wo: Vec3, wi: Vec3) -> f32 {
-        reflect(wo, Vec3::Z).dot(wi).max(0.0)
-    }
-}
-
-impl BxDF for PhongLobe {
+impl BxDF for Glass {
     fn flags(&self) -> BxdfFlags {
-        BxdfFlags::REFLECTION | BxdfFlags::GLOSSY
+        BxdfFlags::REFLECTION | BxdfFlags::TRANSMISSION | BxdfFlags::SPECULAR
     }
 
-    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        self.r * ((self.exponent + 2.0) / TAU * Self::cos_alpha(wo, wi).powf(self.exponent))
+    // A delta lobe has no value for directions that were not drawn from it.
+    fn f(&self, _wo: Vec3, _wi: Vec3) -> Spectrum {
+        Spectrum::BLACK
     }
 
-    // cos α has the cumulative distribution 1 - cosⁿ⁺¹ α around the mirror direction.
-    fn sample_f(&self, wo: Vec3, u: Vec2) -> Option<BxdfSample> {
-        let cos_alpha = (1.0 - u.x).powf(1.0 / (self.exponent + 1.0));
-        let around = (1.0 - cos_alpha * cos_alpha).sqrt() * Vec2::from_angle(TAU * u.y);
-        let wi = Frame::from_normal(reflect(wo, Vec3::Z)).to_world(around.extend(cos_alpha));
-        let pdf = self.pdf(wo, wi);
-        // A part of the lobe may lie below the surface: no sample.
-        (pdf > 0.0).then(|| BxdfSample { f: self.f(wo, wi), wi, pdf, flags: self.flags() })
+    fn pdf(&self, _wo: Vec3, _wi: Vec3) -> f32 {
+        0.0
     }
 
-    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        let above = wo.z * wi.z > 0.0;
-        if above {
-            (self.exponent + 1.0) / TAU * Self::cos_alpha(wo, wi).powf(self.exponent)
-        } else {
-            0.0
+    fn sample_f(&self, wo: Vec3, uc: f32, _u: Vec2) -> Option<BxdfSample> {
+        let n = Vec3::Z * wo.z.signum();
+        // The index on the other side, over that on the side of wo.
+        let eta = if wo.z > 0.0 { self.eta } else { 1.0 / self.eta };
+        let refracted = refract(wo, n, 1.0 / eta);
+        let reflectance = refracted.map_or(1.0, |wi| {
+            let [cos_o, cos_i] = [wo.z.abs(), wi.z.abs()];
+            let parallel = (eta * cos_o - cos_i) / (eta * cos_o + cos_i);
+            let across = (cos_o - eta * cos_i) / (cos_o + eta * cos_i);
+            (parallel * parallel + across * across) / 2.0
+        });
+        match refracted.filter(|_| uc >= reflectance) {
+            None => {
+                let f = Spectrum::splat(reflectance / wo.z.abs());
+                Some(BxdfSample::specular(f, reflect(wo, n), reflectance))
+            }
+            Some(wi) => {
+                let transmittance = 1.0 - reflectance;
+                // Radiance is spread over a larger solid angle on the thinner side: 1/η².
+                let f = Spectrum::splat(transmittance / (eta * eta * wi.z.abs()));
+                Some(BxdfSample::specular(f, wi, transmittance).transmitted(eta))
+            }
         }
     }
 }
 
-/// A diffuse base with a [`PhongLobe`] on top.
-struct Lacquer {
-    base: Spectrum,
-    gloss: PhongLobe,
-}
-
-impl Material for Lacquer {
-    fn compute_scattering<'a>(
-        &self,
-        si: &mut SurfaceInteraction,
-        arena: &'a Arena,
-        _mode: TransportMode,
-        _allow_multiple_lobes: bool,
-    ) -> Bsdf<'a> {
-        let mut bsdf = Bsdf::new(si.isotropic_frame(), si.n(), 1.0);
-        bsdf.add(LambertianReflection::new(self.base));
-        bsdf.add(arena.lobe(self.gloss));
+/// The lobe needs no arena: the material holds it.
+impl Material for Glass {
+    fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, _: &'a Arena) -> Bsdf<'a> {
+        let mut bsdf = Bsdf::isotropic(si);
+        bsdf.add(self as &dyn BxDF);
         bsdf
     }
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let file = std::env::args().nth(1).unwrap_or("custom_bxdf.png".into());
-    let mut torus = torus::torus(1.2, 0.5, 128);
-    torus.transform(&Affine3A::from_rotation_x(-0.6));
-
-    let gloss = PhongLobe { r: Spectrum::splat(0.4), exponent: 60.0 };
     let scene = Scene::builder()
-        .material("lacquer", Lacquer { base: Spectrum::new(0.05, 0.3, 0.2), gloss })
-        .shape("torus", torus, "lacquer")
-        .light(PointLight::new(Vec3::new(-4.0, 8.0, -10.0), Spectrum::splat(150.0 * PI)))
+        .material("glass", Glass { eta: 1.5 })
+        .shape("torus", torus::torus(1.2, 0.5, 64), "glass")
+        .light(SkyLight::new(Spectrum::WHITE))
         .build()?;
     let camera = PerspectiveSettings {
-        eye: Vec3::new(-3.0, 1.5, -3.0),
+        eye: Vec3::new(0.0, 2.0, -2.0),
         look_at: Vec3::ZERO,
-        fov: 65.0,
         ..PerspectiveSettings::default()
     };
-    let view = View::perspective(&camera, FilmSettings::default())?;
-    let sampler =
-        SamplerSettings { kind: SamplerKind::Stratified, spp: 16, ..SamplerSettings::default() };
-    let settings = RenderSettings { sampler, integrator: IntegratorSettings::direct() };
+    let view = View::perspective(&camera, FilmSettings::new(64, 64))?;
+    let settings = RenderSettings::path(1024);
     let rendered = render(&scene, &view, &settings, &RenderOptions::default())?;
-    write_png(Path::new(&file), &rendered.picture, Display::Srgb, &Metadata::default())?;
-    println!("wrote {file} in {:.2} s", rendered.seconds);
+    let pixels = &rendered.picture.color;
+    let mean = pixels.iter().map(|pixel| pixel.to_array()[0]).sum::<f32>() / pixels.len() as f32;
+    println!("{mean:.4} in place of 1, {} lobe values rejected", rendered.counters.rejected);
     Ok(())
 }
