@@ -5,7 +5,7 @@
 use std::f32::consts::{PI, TAU};
 use std::path::Path;
 
-use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, BxdfSample, LambertianReflection, TransportMode};
+use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, BxdfSample, LambertianReflection};
 use lobe::film::{Display, Metadata, write_png};
 use lobe::geometry::{Frame, reflect};
 use lobe::glam::{Affine3A, Vec2, Vec3};
@@ -40,13 +40,13 @@ impl BxDF for PhongLobe {
     }
 
     // cos α has the cumulative distribution 1 - cosⁿ⁺¹ α around the mirror direction.
-    fn sample_f(&self, wo: Vec3, u: Vec2) -> Option<BxdfSample> {
+    fn sample_f(&self, wo: Vec3, _uc: f32, u: Vec2) -> Option<BxdfSample> {
         let cos_alpha = (1.0 - u.x).powf(1.0 / (self.exponent + 1.0));
         let around = (1.0 - cos_alpha * cos_alpha).sqrt() * Vec2::from_angle(TAU * u.y);
         let wi = Frame::from_normal(reflect(wo, Vec3::Z)).to_world(around.extend(cos_alpha));
         let pdf = self.pdf(wo, wi);
         // A part of the lobe may lie below the surface: no sample.
-        (pdf > 0.0).then(|| BxdfSample { f: self.f(wo, wi), wi, pdf, flags: self.flags() })
+        (pdf > 0.0).then(|| BxdfSample::glossy(self.f(wo, wi), wi, pdf))
     }
 
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
@@ -66,14 +66,8 @@ struct Lacquer {
 }
 
 impl Material for Lacquer {
-    fn compute_scattering<'a>(
-        &self,
-        si: &mut SurfaceInteraction,
-        arena: &'a Arena,
-        _mode: TransportMode,
-        _allow_multiple_lobes: bool,
-    ) -> Bsdf<'a> {
-        let mut bsdf = Bsdf::new(si.isotropic_frame(), si.n(), 1.0);
+    fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, arena: &'a Arena) -> Bsdf<'a> {
+        let mut bsdf = Bsdf::isotropic(si);
         bsdf.add(LambertianReflection::new(self.base));
         bsdf.add(arena.lobe(self.gloss));
         bsdf

@@ -8,7 +8,6 @@ use std::f64::consts::PI;
 use lobe::glam::{DVec3, UVec2, Vec3};
 use lobe::integrator::DirectIntegrator;
 use lobe::render::render_with;
-use lobe::scene::LightStrategy;
 use lobe::{
     CameraSettings, MatteMaterial, PointLight, RenderOptions, Scene, Spectrum, TriangleMesh, render,
 };
@@ -43,15 +42,10 @@ fn plane(scale: f32, shift: Vec3, blocker: Option<TriangleMesh>) -> Vec<Spectrum
         builder = builder.shape("blocker", moved(mesh), "plane");
     }
     let scene = builder.build().unwrap();
-    render_with(
-        &scene,
-        &DirectIntegrator::new(&scene, LightStrategy::Auto),
-        &Middle,
-        &RenderOptions::default(),
-    )
-    .unwrap()
-    .picture
-    .color
+    render_with(&scene, &DirectIntegrator::default(), &Middle, &RenderOptions::default())
+        .unwrap()
+        .picture
+        .color
 }
 
 /// The point of the plane in the middle of a pixel. From above with up = +z, the image's right is
