@@ -17,7 +17,7 @@ use bumpalo::Bump;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use lobe::accel::Hit;
-use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, LambertianReflection, OrenNayar, TransportMode};
+use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, LambertianReflection, OrenNayar};
 use lobe::geometry::{Frame, Ray};
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::interaction::SurfaceInteraction;
@@ -26,7 +26,7 @@ use lobe::sampling::{
     BlueNoiseSampler, IndependentSampler, SampleId, Sampler, SobolSampler, StratifiedSampler,
     cosine_hemisphere, uniform_hemisphere, uniform_triangle,
 };
-use lobe::texture::{ConstantTexture, TextureHandle};
+use lobe::texture::{ConstantTexture, Texture, TextureHandle};
 use lobe::{MatteMaterial, PointLight, Scene, Spectrum, TriangleMesh};
 use smallbox::SmallBox;
 use smallbox::space::S4;
@@ -44,6 +44,7 @@ struct Sample {
     frame: Frame,
     wo: Vec3,
     wi: Vec3,
+    uc: f32,
     u: Vec2,
 }
 
@@ -60,7 +61,8 @@ fn pool(mesh: &TriangleMesh) -> Vec<Sample> {
             let b = uniform_triangle::sample(v);
             let hit =
                 Hit { t: 1.0, b: [b.x, b.y, 1.0 - b.x - b.y], shape: 0, triangle: triangle as u32 };
-            Sample { ray: Ray::new(wo, -wo), hit, number: i, frame, wo, wi, u }
+            let uc = lattice(i, 0.819_173);
+            Sample { ray: Ray::new(wo, -wo), hit, number: i, frame, wo, wi, uc, u }
         })
         .collect()
 }
@@ -91,7 +93,7 @@ fn measure<R>(
 }
 
 fn bsdf(sample: &Sample, lobe: impl Into<lobe::bxdf::Lobe<'static>>) -> Bsdf<'static> {
-    let mut bsdf = Bsdf::new(sample.frame, sample.frame.n, 1.0);
+    let mut bsdf = Bsdf::new(sample.frame, sample.frame.n);
     bsdf.add(lobe);
     bsdf
 }
@@ -110,7 +112,7 @@ fn lobes(criterion: &mut Criterion) {
         if same_side(s, s.wi) { s.wi.dot(s.frame.n).abs() * FRAC_1_PI } else { 0.0 }
     });
     measure(&mut group, "sample_f lambertian", &pool, |s| {
-        smooth[s.number].sample_f(s.wo, s.u, all)
+        smooth[s.number].sample_f(s.wo, s.uc, s.u, all)
     });
     measure(&mut group, "sample_f by hand", &pool, |s| {
         let local = cosine_hemisphere::sample(s.u);
@@ -118,7 +120,9 @@ fn lobes(criterion: &mut Criterion) {
     });
     let rough: Vec<_> = pool.iter().map(|s| bsdf(s, OrenNayar::new(RED, 20.0))).collect();
     measure(&mut group, "f oren-nayar", &pool, |s| rough[s.number].f(s.wo, s.wi, all));
-    measure(&mut group, "sample_f oren-nayar", &pool, |s| rough[s.number].sample_f(s.wo, s.u, all));
+    measure(&mut group, "sample_f oren-nayar", &pool, |s| {
+        rough[s.number].sample_f(s.wo, s.uc, s.u, all)
+    });
 }
 
 fn same_side(s: &Sample, wi: Vec3) -> bool {
@@ -146,7 +150,7 @@ fn storage(criterion: &mut Criterion) {
     let mut arena = Arena::new();
     measure(&mut group, "arena dyn", &pool, |s| {
         let answer = {
-            let mut bsdf = Bsdf::new(s.frame, s.frame.n, 1.0);
+            let mut bsdf = Bsdf::new(s.frame, s.frame.n);
             bsdf.add(arena.lobe(LambertianReflection::new(RED)));
             f_and_pdf(&black_box(bsdf), s)
         };
@@ -181,9 +185,9 @@ fn textures(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("shading/texture");
     let interaction = |s: &Sample| SurfaceInteraction::on_triangle(&mesh, 0, s.hit.b, s.wo);
     let si = interaction(&pool[0]);
-    let constant = TextureHandle::from(RED);
+    let constant = RED.into_handle();
     measure(&mut group, "constant in place", &pool, |_| black_box(&constant).evaluate(&si));
-    let shared = TextureHandle::from(Arc::new(ConstantTexture::new(RED)));
+    let shared = TextureHandle::Shared(Arc::new(ConstantTexture::new(RED)));
     measure(&mut group, "constant behind a pointer", &pool, |_| black_box(&shared).evaluate(&si));
 }
 
@@ -223,7 +227,6 @@ fn hits(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("shading/hit");
     let arena = Arena::new();
     let all = BxdfFlags::all();
-    let mode = TransportMode::Radiance;
     measure(&mut group, "interaction", &pool, |s| scene.interaction(&s.ray, &s.hit));
     let matte = MatteMaterial::new(RED);
     measure(&mut group, "bsdf by hand", &pool, |s| {
@@ -231,11 +234,11 @@ fn hits(criterion: &mut Criterion) {
     });
     let mut interactions: Vec<_> = pool.iter().map(|s| scene.interaction(&s.ray, &s.hit)).collect();
     measure(&mut group, "bsdf of a matte hit", &pool, |s| {
-        matte.compute_scattering(&mut interactions[s.number], &arena, mode, true)
+        matte.compute_scattering(&mut interactions[s.number], &arena)
     });
     measure(&mut group, "through the traits", &pool, |s| {
         let mut si = scene.interaction(&s.ray, &s.hit);
-        let bsdf = scene.material(&s.hit).compute_scattering(&mut si, &arena, mode, true);
+        let bsdf = scene.bsdf(&s.hit, &mut si, &arena);
         let light = scene.lights()[0].sample_li(si.p(), s.u).expect("the light is elsewhere");
         bsdf.f(si.wo(), light.wi, all) * (bsdf.pdf(si.wo(), light.wi, all) * 3.0)
     });

@@ -12,6 +12,7 @@ use lobe::glam::{Vec2, Vec3};
 use lobe::interaction::SurfaceInteraction;
 use lobe::light::SkyLight;
 use lobe::material::Material;
+use lobe::scene::IntegratorSettings;
 use lobe::{
     FilmSettings, PerspectiveSettings, RenderOptions, RenderSettings, Scene, Spectrum, View, render,
 };
@@ -83,7 +84,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ..PerspectiveSettings::default()
     };
     let view = View::perspective(&camera, FilmSettings::new(64, 64))?;
-    let settings = RenderSettings::path(1024);
+    let integrator = IntegratorSettings::path(1024);
+    let settings = RenderSettings { integrator, ..RenderSettings::default() };
     let rendered = render(&scene, &view, &settings, &RenderOptions::default())?;
     let pixels = &rendered.picture.color;
     let mean = pixels.iter().map(|pixel| pixel.to_array()[0]).sum::<f32>() / pixels.len() as f32;

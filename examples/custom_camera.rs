@@ -57,8 +57,10 @@ impl Sampler for Quasirandom {
     fn get_2d(&self, id: SampleId, dimension: u32) -> Vec2 {
         let [x, y] = id.pixel.to_array().map(f64::from);
         let start = 0.618_034 * x + 0.414_214 * y + 0.732_051 * f64::from(dimension + 7 * id.set);
-        let coordinate = |step: f64, start: f64| (start + step * f64::from(id.index)).fract() as f32;
-        let point = Vec2::new(coordinate(0.754_877_666, start), coordinate(0.569_840_291, 3.3 * start));
+        let coordinate =
+            |step: f64, start: f64| (start + step * f64::from(id.index)).fract() as f32;
+        let point =
+            Vec2::new(coordinate(0.754_877_666, start), coordinate(0.569_840_291, 3.3 * start));
         point.min(Vec2::splat(1.0 - f32::EPSILON / 2.0))
     }
 }

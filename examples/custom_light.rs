@@ -48,11 +48,8 @@ impl Light for Overcast {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = std::env::args().nth(1).unwrap_or("custom_light.png".into());
-    let floor = TriangleMesh::parallelogram(
-        Vec3::new(-4.0, -0.5, -4.0),
-        8.0 * Vec3::Z,
-        8.0 * Vec3::X,
-    );
+    let floor =
+        TriangleMesh::parallelogram(Vec3::new(-4.0, -0.5, -4.0), 8.0 * Vec3::Z, 8.0 * Vec3::X);
     let scene = Scene::builder()
         .material("clay", MatteMaterial::new([0.6, 0.3, 0.2]))
         .shape("torus", torus::torus(1.2, 0.5, 128), "clay")

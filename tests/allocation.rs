@@ -8,7 +8,7 @@ use std::num::NonZeroUsize;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, TransportMode};
+use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags};
 use lobe::film::Filter;
 use lobe::glam::Vec3;
 use lobe::interaction::SurfaceInteraction;
@@ -60,14 +60,8 @@ impl BxDF for Foreign {
 struct ForeignMaterial;
 
 impl Material for ForeignMaterial {
-    fn compute_scattering<'a>(
-        &self,
-        si: &mut SurfaceInteraction,
-        arena: &'a Arena,
-        _mode: TransportMode,
-        _allow_multiple_lobes: bool,
-    ) -> Bsdf<'a> {
-        let mut bsdf = Bsdf::new(si.tangent_frame(), si.n(), 1.0);
+    fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, arena: &'a Arena) -> Bsdf<'a> {
+        let mut bsdf = Bsdf::along_u(si);
         bsdf.add(arena.lobe(Foreign));
         bsdf.add(arena.lobe(Foreign));
         bsdf

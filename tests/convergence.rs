@@ -4,9 +4,9 @@
 //! have. Two methods are wrong on purpose: one cuts bright samples off, one divides by another density than it drew
 //! from.
 
-use lobe::bxdf::{BxdfFlags, TransportMode};
+use lobe::bxdf::BxdfFlags;
 use lobe::glam::{UVec2, Vec3};
-use lobe::integrator::{DirectIntegrator, Integrator, Wave, dimension};
+use lobe::integrator::{DirectIntegrator, Estimator, Integrator, Wave, dimension};
 use lobe::light::SkyLight;
 use lobe::metrics::convergence::{
     Bias, Curve, Distrust, Method, Other, Pool, Reference, Run, Study, front,
@@ -76,7 +76,7 @@ fn reference(scene: &Scene) -> Reference {
 
 /// The right method, with an integrator of the test's in its place if there is one.
 fn method<'a>(scene: &'a Scene, name: &str, wrong: Option<&'a dyn Integrator>) -> Method<'a> {
-    let right = DirectIntegrator::new(scene, LightStrategy::Auto);
+    let right = DirectIntegrator::default();
     Method::new(name, scene.build_seconds(), move |spp, seed| {
         let sampler = IndependentSampler::new(seed);
         let sampling = Sampling::new(&sampler, spp);
@@ -89,8 +89,16 @@ fn method<'a>(scene: &'a Scene, name: &str, wrong: Option<&'a dyn Integrator>) -
 struct Clamped(DirectIntegrator);
 
 impl Integrator for Clamped {
-    fn shade(&self, scene: &Scene, sampler: &dyn Sampler, wave: &mut Wave) {
-        self.0.shade(scene, sampler, wave);
+    fn prepare<'a>(&'a self, scene: &'a Scene) -> Box<dyn Estimator + 'a> {
+        Box::new(ClampedEstimator(self.0.prepare(scene)))
+    }
+}
+
+struct ClampedEstimator<'a>(Box<dyn Estimator + 'a>);
+
+impl Estimator for ClampedEstimator<'_> {
+    fn shade(&self, sampler: &dyn Sampler, wave: &mut Wave) {
+        self.0.shade(sampler, wave);
         for radiance in &mut wave.radiance {
             *radiance = Spectrum::from(radiance.to_array().map(|band| band.min(0.5)));
         }
@@ -105,7 +113,16 @@ impl Integrator for Clamped {
 struct WrongPdf;
 
 impl Integrator for WrongPdf {
-    fn shade(&self, scene: &Scene, sampler: &dyn Sampler, wave: &mut Wave) {
+    fn prepare<'a>(&'a self, scene: &'a Scene) -> Box<dyn Estimator + 'a> {
+        Box::new(WrongPdfEstimator(scene))
+    }
+}
+
+struct WrongPdfEstimator<'a>(&'a Scene);
+
+impl Estimator for WrongPdfEstimator<'_> {
+    fn shade(&self, sampler: &dyn Sampler, wave: &mut Wave) {
+        let scene = self.0;
         let Wave { ids, rays, hits, radiance, shadow, arena, .. } = wave;
         for (sample, (ray, hit)) in rays.iter().zip(&*hits).enumerate() {
             if !hit.is_hit() {
@@ -113,12 +130,7 @@ impl Integrator for WrongPdf {
                 continue;
             }
             let mut si = scene.interaction(ray, hit);
-            let bsdf = scene.material(hit).compute_scattering(
-                &mut si,
-                arena,
-                TransportMode::Radiance,
-                true,
-            );
+            let bsdf = scene.bsdf(hit, &mut si, arena);
             let u = sampler.get_2d(ids[sample], dimension::FIRST_LIGHT);
             let (z, phi) = (1.0 - 2.0 * u.x, std::f32::consts::TAU * u.y);
             let r = (1.0 - z * z).max(0.0).sqrt();
@@ -156,7 +168,7 @@ fn wrong_methods_flatten_and_are_called_biased() {
     let scene = scene();
     let reference = reference(&scene);
     assert_eq!(reference.distrust(), None);
-    let clamped = Clamped(DirectIntegrator::new(&scene, LightStrategy::Auto));
+    let clamped = Clamped(DirectIntegrator::default());
     let methods = [
         method(&scene, "right", None),
         method(&scene, "clamped", Some(&clamped)),

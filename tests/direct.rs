@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use lobe::glam::{DVec3, UVec2, Vec3};
 use lobe::integrator::DirectIntegrator;
 use lobe::render::{Sampling, render_with};
-use lobe::scene::{IntegratorSettings, LightStrategy};
+use lobe::scene::IntegratorSettings;
 use lobe::{
     MatteMaterial, PerspectiveSettings, PointLight, RenderOptions, Scene, Spectrum, TriangleMesh,
     render,
@@ -45,7 +45,7 @@ fn plane(scale: f32, shift: Vec3, blocker: Option<TriangleMesh>) -> Vec<Spectrum
     render_with(
         &scene,
         &view(&camera, UVec2::splat(SIZE)),
-        &DirectIntegrator::new(&scene, LightStrategy::Auto),
+        &DirectIntegrator::default(),
         Sampling::new(&Middle, 1),
         &RenderOptions::default(),
     )

@@ -275,6 +275,24 @@ fn radiance_does_not_know_what_else_is_kept() {
     }
 }
 
+/// What a sample met first is kept whole or not at all, and counted. Seen to fail without the film's test of first hits,
+/// and without each of its three parts.
+#[test]
+fn first_hits_that_are_none_are_counted() {
+    let mut film = film(1, Variance::None, true);
+    let mut add = |n, depth, albedo| film.add_first_hit(PIXEL, n, depth, Spectrum::splat(albedo));
+    for bad in [f32::NAN, f32::INFINITY] {
+        add(Vec3::new(0.0, bad, 0.0), 2.0, 0.5);
+        add(Vec3::Y, bad, 0.5);
+        add(Vec3::Y, 2.0, bad);
+    }
+    add(Vec3::Y, 2.0, 0.5);
+    assert_eq!(film.non_finite(), 6);
+    let layers = film.develop().layers.unwrap();
+    assert_eq!((layers.normal[0], layers.depth[0]), (Vec3::Y, 2.0));
+    assert_eq!(layers.albedo[0], Spectrum::splat(0.5));
+}
+
 #[test]
 #[should_panic = "a tile keeps what its film keeps"]
 fn films_that_keep_other_things_do_not_merge() {

@@ -2,7 +2,7 @@
 
 mod scenes;
 
-use lobe::bxdf::{Arena, Bsdf, TransportMode};
+use lobe::bxdf::{Arena, Bsdf};
 use lobe::glam::{UVec2, Vec3};
 use lobe::interaction::SurfaceInteraction;
 use lobe::light::{DistantLight, SkyLight};
@@ -15,14 +15,8 @@ use scenes::{ball_over_floor, chapter_view, independent};
 struct Disguised(MatteMaterial);
 
 impl Material for Disguised {
-    fn compute_scattering<'a>(
-        &self,
-        si: &mut SurfaceInteraction,
-        arena: &'a Arena,
-        mode: TransportMode,
-        allow_multiple_lobes: bool,
-    ) -> Bsdf<'a> {
-        self.0.compute_scattering(si, arena, mode, allow_multiple_lobes)
+    fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, arena: &'a Arena) -> Bsdf<'a> {
+        self.0.compute_scattering(si, arena)
     }
 }
 

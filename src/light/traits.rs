@@ -228,3 +228,80 @@ macro_rules! shared {
 }
 
 shared!(<> dyn Light, <L> L);
+
+#[cfg(test)]
+mod tests {
+    use super::super::rectangle::Rectangle;
+    use super::super::{AreaLight, PointLight, SkyLight};
+    use super::*;
+    use crate::shape::TriangleMesh;
+
+    /// Numbers in `[0, 1)`, of 24 bits.
+    fn numbers() -> impl FnMut() -> f32 {
+        let mut state = 1_u64;
+        move || {
+            state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
+            (state >> 40) as f32 / (1 << 24) as f32
+        }
+    }
+
+    /// Points around lights of all kinds, on both sides of a lamp, some of them so that f32 is not enough. Seen to fail
+    /// with the sides exchanged, with a density that is not the scalar one's, and with the first block's samples for
+    /// the second.
+    #[test]
+    fn four_samples_are_those_of_one_to_the_bit() {
+        let lamp = TriangleMesh::parallelogram(Vec3::new(0.3, 1.0, 0.1), Vec3::X, 2.0 * Vec3::Z);
+        let mut bent = lamp.clone();
+        bent.positions[2].y += 0.5;
+        let l = Spectrum::new(3.0, 2.0, 1.0);
+        let corners = [lamp.corners(0), lamp.corners(1)];
+        let rectangle = Rectangle::new(corners, lamp.geometric_normal(0)).unwrap();
+        let area = |mesh, two_sided| AreaLight::new(mesh, l, two_sided).unwrap();
+        let lights: [&dyn Light; 6] = [
+            &PointLight::new(Vec3::new(0.5, 1.0, -0.5), l),
+            &SkyLight::new(l),
+            &area(&lamp, false),
+            &area(&lamp, true),
+            &area(&bent, false),
+            &area(&bent, true),
+        ];
+        let mut next = numbers();
+        let (mut compared, mut missing, mut declined) = (0, 0, 0);
+        for trial in 0..10_000 {
+            let scale = 10.0_f32.powf(3.0 * next() - 1.5);
+            let mut around = || scale * (2.0 * next() - 1.0);
+            let p =
+                [(); 2].map(|()| [(); 4].map(|()| Vec3::new(around(), 1.0 + around(), around())));
+            let u = [(); 2].map(|()| [(); 4].map(|()| Vec2::new(next(), next())));
+            let points = p.map(|p| Vec3x4::new(four(|i| &p[i])));
+            for (number, light) in lights.iter().enumerate() {
+                let mut samples = [LightSamplesX4::NONE; 2];
+                light.sample_li_x4(&points, &u, &mut samples);
+                for (block, samples) in samples.into_iter().enumerate() {
+                    let (p, u) = (p[block], u[block]);
+                    // What a kind samples one by one is compared too, but does not count.
+                    let at_once = match number {
+                        0 | 1 => true,
+                        2 | 3 => rectangle.sample_x4(points[block], u, l, true).is_some(),
+                        _ => false,
+                    };
+                    declined += usize::from((number == 2 || number == 3) && !at_once);
+                    let [wi, from] = [samples.wi, samples.from].map(|v| v.rows(samples.pdf));
+                    for i in 0..4 {
+                        let found = samples.exists.test(i).then(|| LightSample {
+                            li: samples.li[i],
+                            wi: wi[i].truncate(),
+                            pdf: wi[i].w,
+                            from: samples.is_near.test(i).then(|| from[i].truncate()),
+                        });
+                        let expected = light.sample_li(p[i], u[i]);
+                        assert_eq!(found, expected, "trial {trial}, light {number} from {}", p[i]);
+                        compared += usize::from(at_once);
+                        missing += usize::from(at_once && found.is_none());
+                    }
+                }
+            }
+        }
+        assert!(compared > 150_000 && missing > 3_000 && declined > 30_000);
+    }
+}

@@ -71,7 +71,7 @@ fn directional_reflectance_is_the_integral_of_f() {
     for (name, lobe) in lobes() {
         for cos in COSINES {
             let (closed, integral) =
-                (first(lobe.rho_hd(view(cos), &[])), reflectance(&*lobe, view(cos)));
+                (first(lobe.rho_hd(view(cos), &[], &[])), reflectance(&*lobe, view(cos)));
             assert!(
                 (closed - integral).abs() < 2e-6,
                 "{name}, cos {cos}: {closed}, integral {integral}"
@@ -89,10 +89,11 @@ fn hemispherical_reflectance_is_the_mean_of_the_directional() {
             let at = |i: usize| FRAC_PI_2 * i as f64 / 24.0;
             for (theta, weight) in gauss([at(piece), at(piece + 1)]) {
                 let wo = Vec3::new(theta.sin() as f32, 0.0, theta.cos() as f32);
-                integral += 2.0 * weight * theta.sin() * theta.cos() * first(lobe.rho_hd(wo, &[]));
+                integral +=
+                    2.0 * weight * theta.sin() * theta.cos() * first(lobe.rho_hd(wo, &[], &[]));
             }
         }
-        let closed = first(lobe.rho_hh(&[], &[]));
+        let closed = first(lobe.rho_hh(&[], &[], &[]));
         assert!((closed - integral).abs() < 2e-6, "{name}: {closed}, integral {integral}");
     }
 }
@@ -101,6 +102,12 @@ fn hemispherical_reflectance_is_the_mean_of_the_directional() {
 fn points(test: u64, batch: u64) -> Vec<Vec2> {
     let mut rng = Rng::new(test, batch);
     (0..4096).map(|_| rng.square()).collect()
+}
+
+/// Numbers for as many events.
+fn choices(test: u64, batch: u64) -> Vec<f32> {
+    let mut rng = Rng::new(1000 + test, batch);
+    (0..4096).map(|_| rng.f32()).collect()
 }
 
 /// The trait's Monte Carlo estimates have the closed forms for their mean: 64 batches of 4096 points. Caught:
@@ -125,14 +132,16 @@ fn monte_carlo_agrees_with_closed_forms() {
         // Rounding alone moves a constant estimate.
         let floor = |error: f64| error.max(1e-6);
         for cos in COSINES {
-            let batches = (0..64).map(|b| first(plain.rho_hd(view(cos), &points(400, b))));
+            let batch = |b| first(plain.rho_hd(view(cos), &choices(400, b), &points(400, b)));
+            let batches = (0..64).map(batch);
             let (mean, error) = mean(batches);
-            let expected = first(closed.rho_hd(view(cos), &[]));
+            let expected = first(closed.rho_hd(view(cos), &[], &[]));
             assert_mean(mean, floor(error), expected, runs, &format!("{name}, cos {cos}"));
         }
-        let batches = (0..64).map(|b| first(plain.rho_hh(&points(401, b), &points(402, b))));
+        let batch = |b| first(plain.rho_hh(&points(401, b), &choices(401, b), &points(402, b)));
+        let batches = (0..64).map(batch);
         let (mean, error) = mean(batches);
-        assert_mean(mean, floor(error), first(closed.rho_hh(&[], &[])), runs, &name);
+        assert_mean(mean, floor(error), first(closed.rho_hh(&[], &[], &[])), runs, &name);
     }
 }
 
@@ -145,16 +154,26 @@ fn monte_carlo_counts_its_points() {
     let inside = |u: &[Vec2]| u.iter().filter(|u| u.min_element() > 0.0).count() as f64;
     for count in [1, 2, 100] {
         let u = &points(403, 0)[..count];
-        let rho = first(lobe.rho_hd(view(0.5), u));
+        let rho = first(lobe.rho_hd(view(0.5), &choices(403, 0)[..count], u));
         assert!((rho - 0.7 * inside(u) / count as f64).abs() < 1e-5, "{count}: {rho}");
     }
     // One of these two has no direction: it lies on the border of the square.
-    let rho = first(lobe.rho_hd(view(0.5), &[Vec2::new(0.0, 0.3), Vec2::splat(0.3)]));
+    let rho = first(lobe.rho_hd(view(0.5), &[0.3; 2], &[Vec2::new(0.0, 0.3), Vec2::splat(0.3)]));
     assert!((rho - 0.35).abs() < 1e-5, "{rho}");
-    assert!(lobe.rho_hd(view(0.5), &[]).is_black());
-    assert!(lobe.rho_hh(&[], &points(403, 0)).is_black());
+    assert!(lobe.rho_hd(view(0.5), &choices(403, 0), &[]).is_black());
+    assert!(lobe.rho_hd(view(0.5), &[], &points(403, 0)).is_black());
+    assert!(lobe.rho_hh(&[], &choices(403, 0), &points(403, 0)).is_black());
     let (short, long) = (&points(404, 0)[..7], points(405, 0));
-    assert_eq!(lobe.rho_hh(short, &long), lobe.rho_hh(short, &long[..7]));
+    let (few, many) = (&choices(404, 0)[..7], choices(404, 0));
+    let cut = lobe.rho_hh(short, few, &long[..7]);
+    assert!(!cut.is_black());
+    for (u1, uc, u2) in [(short, &many[..], &long[..]), (&long, few, &long), (&long, &many, short)]
+    {
+        let shortest = lobe.rho_hh(&u1[..7], &uc[..7], &u2[..7]);
+        assert_eq!(lobe.rho_hh(u1, uc, u2), shortest);
+    }
+    assert_eq!(lobe.rho_hd(view(0.5), few, &long), lobe.rho_hd(view(0.5), few, &long[..7]));
+    assert_eq!(lobe.rho_hd(view(0.5), &many, short), lobe.rho_hd(view(0.5), few, short));
 }
 
 /// A white furnace: what a white body gives back of uniform light. Lambert's law loses nothing.
@@ -200,7 +219,7 @@ fn reflectance_is_bounded() {
         let lobe = OrenNayar::new(Spectrum::new(1.0, 0.5, 0.0), sigma);
         for step in 1..=200 {
             let cos = (step as f32 / 200.0).powi(2);
-            let [r, g, b] = lobe.rho_hd(view(cos), &[]).to_array();
+            let [r, g, b] = lobe.rho_hd(view(cos), &[], &[]).to_array();
             let bound = if sigma < 20.0 { 1.0152 } else { 1.0 };
             assert!((0.0..=bound).contains(&r), "sigma {sigma}, cos {cos}: {r}");
             assert!((g - 0.5 * r).abs() < 1e-6 && b == 0.0, "sigma {sigma}, cos {cos}");
@@ -215,7 +234,7 @@ fn sums_of_lobes_add_up() {
     let n = Vec3::new(0.48, 0.6, 0.64);
     let gloss = Stretched { r: 0.3, m: Vec3::new(0.3, 0.3, 1.0) };
     let rough = OrenNayar::new(Spectrum::splat(0.4), 40.0);
-    let mut bsdf = Bsdf::new(Frame::from_normal(n), n, 1.0);
+    let mut bsdf = Bsdf::new(Frame::from_normal(n), n);
     bsdf.add(LambertianReflection::new(Spectrum::splat(0.2)));
     bsdf.add(rough);
     bsdf.add(Lobe::Custom(&gloss));
@@ -223,11 +242,12 @@ fn sums_of_lobes_add_up() {
     for cos in [1.0, 0.7, 0.3, 0.05] {
         let wo = bsdf.frame().to_world(view(cos));
         let expected = 0.5 + reflectance(&rough, view(cos));
-        let (own, own_error) = mean((0..16).map(|b| first(bsdf.rho_hd(wo, &points(406, b), all))));
+        let (own, own_error) =
+            mean((0..16).map(|b| first(bsdf.rho_hd(wo, &choices(406, b), &points(406, b), all))));
         assert_mean(own, own_error.max(1e-6), expected, 8, &format!("rho_hd, cos {cos}"));
         let mut rng = Rng::new(407, 0);
         let samples = (0..200_000).map(|_| {
-            let sample = bsdf.sample_f(wo, rng.square(), all);
+            let sample = bsdf.sample_f(wo, rng.f32(), rng.square(), all);
             sample.map_or(0.0, |s| first(s.f) * f64::from(s.wi.dot(n).abs() / s.pdf))
         });
         let (sampled, error) = mean(samples);

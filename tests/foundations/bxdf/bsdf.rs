@@ -18,7 +18,7 @@ const WINDOW: Delta = Delta { r: 0.8, eta: Some(1.5) };
 const GLOSS: Stretched = Stretched { r: 0.5, m: Vec3::new(0.3, 0.3, 1.0) };
 
 fn flat() -> Bsdf<'static> {
-    Bsdf::new(Frame::from_normal(Vec3::Z), Vec3::Z, 1.0)
+    Bsdf::new(Frame::from_normal(Vec3::Z), Vec3::Z)
 }
 
 /// A lobe answers when all of its flags are asked for. Caught: `intersects` in place of `contains`.
@@ -50,11 +50,11 @@ fn flags_choose_lobes() {
     for (flags, count) in table {
         assert_eq!(bsdf.num_components(flags), count, "{flags:?}");
         let none = count == 0;
-        assert_eq!(bsdf.sample_f(wo, Vec2::splat(0.3), flags).is_none(), none, "{flags:?}");
+        assert_eq!(bsdf.sample_f(wo, 0.3, Vec2::splat(0.3), flags).is_none(), none, "{flags:?}");
         if none {
             assert_eq!(bsdf.pdf(wo, above, flags), 0.0, "{flags:?}");
             assert!(bsdf.f(wo, above, flags).is_black(), "{flags:?}");
-            assert!(bsdf.rho_hd(wo, &[Vec2::splat(0.3)], flags).is_black(), "{flags:?}");
+            assert!(bsdf.rho_hd(wo, &[0.3], &[Vec2::splat(0.3)], flags).is_black(), "{flags:?}");
         }
     }
     let only =
@@ -79,37 +79,45 @@ fn a_ninth_lobe_is_refused() {
     assert!((f - 0.8 * FRAC_1_PI).abs() < 1e-6);
 }
 
-/// A delta lobe beside a diffuse one: each is drawn half of the time, with half of its density; the
-/// delta adds nothing to `f` and `pdf`. Caught: the mirror's pdf of 1 not divided by the number of lobes;
-/// the mean density taken for a specular sample too, which is 0.
+/// A delta lobe beside a diffuse one: each is drawn as often as its share says, with its share of its density; the
+/// delta adds nothing to `f` and `pdf`. The mirror estimates its albedo at 1, as by default, and the diffuser at R.
+/// Caught: the mirror's pdf of 1 not multiplied by its share; the mean density taken for a specular sample too, which
+/// is 0; shares that are equal, and in proportion to the estimates alone.
 #[test]
 fn delta_lobes_take_part() {
+    [1.0, 0.25, 0.0].into_iter().for_each(a_delta_lobe_takes_part);
+}
+
+fn a_delta_lobe_takes_part(r: f32) {
+    let mirror_share = 0.1 * 0.5 + (1.0 - 0.1) * (1.0 / (1.0 + r));
+    let diffuse = Spectrum::splat(r * FRAC_1_PI);
     let mut bsdf = flat();
     bsdf.add(Lobe::Custom(&MIRROR));
-    bsdf.add(WHITE);
+    bsdf.add(LambertianReflection::new(Spectrum::splat(r)));
     let wo = view(0.6);
     let all = BxdfFlags::all();
     let mirrored = Vec3::new(-wo.x, -wo.y, wo.z);
-    assert_eq!(bsdf.f(wo, mirrored, all), Spectrum::splat(FRAC_1_PI));
+    assert_eq!(bsdf.f(wo, mirrored, all), diffuse);
     assert_eq!(bsdf.f(wo, mirrored, BxdfFlags::REFLECTION | BxdfFlags::SPECULAR), Spectrum::BLACK);
     let pdf = bsdf.pdf(wo, mirrored, all);
-    assert!((pdf - 0.5 * 0.6 * FRAC_1_PI).abs() < 1e-6, "{pdf}");
+    assert!((pdf - (1.0 - mirror_share) * 0.6 * FRAC_1_PI).abs() < 1e-6, "{pdf}");
 
     let (trials, mut specular) = (100_000, 0);
     let mut rng = Rng::new(310, 0);
     for trial in 0..trials {
-        let Some(sample) = bsdf.sample_f(wo, rng.square(), all) else { continue };
+        let Some(sample) = bsdf.sample_f(wo, rng.f32(), rng.square(), all) else { continue };
         if sample.flags.contains(BxdfFlags::SPECULAR) {
             specular += 1;
             assert!(sample.wi.distance(mirrored) < 1e-6, "trial {trial}");
-            assert_eq!((sample.pdf, sample.f), (0.5, Spectrum::splat(0.8 / sample.wi.z)));
+            assert_eq!((sample.pdf, sample.f), (mirror_share, Spectrum::splat(0.8 / sample.wi.z)));
         } else {
             assert_eq!(sample.pdf, bsdf.pdf(wo, sample.wi, all), "trial {trial}");
-            assert_eq!(sample.f, Spectrum::splat(FRAC_1_PI), "trial {trial}");
+            assert_eq!(sample.f, diffuse, "trial {trial}");
         }
     }
-    let share = specular as f64 / trials as f64;
-    assert_mean(share, 0.5 / (trials as f64).sqrt(), 0.5, 1, "share of mirror samples");
+    let (share, expected) = (specular as f64 / trials as f64, f64::from(mirror_share));
+    let error = (expected * (1.0 - expected) / trials as f64).sqrt();
+    assert_mean(share, error, expected, 3, "share of mirror samples");
 }
 
 /// A delta lobe without a direction gives no sample. Caught: `?` on the lobe's sample replaced by a
@@ -118,7 +126,7 @@ fn delta_lobes_take_part() {
 fn total_internal_reflection_gives_no_sample() {
     let mut bsdf = flat();
     bsdf.add(Lobe::Custom(&WINDOW));
-    let inside = |cos: f32| bsdf.sample_f(-view(cos), Vec2::splat(0.5), BxdfFlags::all());
+    let inside = |cos: f32| bsdf.sample_f(-view(cos), 0.5, Vec2::splat(0.5), BxdfFlags::all());
     // The critical angle of 1.5 has the cosine 0.745.
     assert!(inside(0.74).is_none());
     let sample = inside(0.75).unwrap();
@@ -146,10 +154,10 @@ fn both_normals_have_to_agree() {
         if heights.iter().any(|height| height.abs() < 1e-6) {
             continue;
         }
-        let mut both = Bsdf::new(frame, ng, 1.0);
+        let mut both = Bsdf::new(frame, ng);
         both.add(reflects);
         both.add(Lobe::Custom(&transmits));
-        let mut opaque = Bsdf::new(frame, ng, 1.0);
+        let mut opaque = Bsdf::new(frame, ng);
         opaque.add(reflects);
 
         let reflected = (wo.dot(ng) > 0.0) == (wi.dot(ng) > 0.0);
@@ -166,7 +174,7 @@ fn both_normals_have_to_agree() {
         leaks += u32::from(reflected != shading_reflected);
 
         // Samples follow the same rule.
-        if let Some(sample) = opaque.sample_f(wo, rng.square(), all) {
+        if let Some(sample) = opaque.sample_f(wo, rng.f32(), rng.square(), all) {
             let side = sample.wi.dot(ng);
             let through = (wo.dot(ng) > 0.0) != (side > 0.0) && side.abs() > 1e-6;
             assert!(!through || sample.f.is_black(), "trial {trial}: light leaks to {}", sample.wi);

@@ -9,10 +9,11 @@ use super::view;
 use crate::common::lobes::{Broken, Counting};
 
 const BAD: [f32; 4] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1e-3];
+const UC: f32 = 0.45;
 const U: Vec2 = Vec2::new(0.3, 0.6);
 
 fn flat(lobe: &dyn BxDF) -> Bsdf<'_> {
-    let mut bsdf = Bsdf::new(Frame::from_normal(Vec3::Z), Vec3::Z, 1.0);
+    let mut bsdf = Bsdf::new(Frame::from_normal(Vec3::Z), Vec3::Z);
     bsdf.add(Lobe::Custom(lobe));
     bsdf
 }
@@ -27,15 +28,15 @@ fn bad_values_become_black() {
         let bsdf = flat(&lobe);
         assert!(bsdf.f(view(0.5), Vec3::Z, all).is_black(), "{bad}");
         assert_eq!(bsdf.rejected(), 1, "{bad}");
-        assert!(bsdf.sample_f(view(0.5), U, all).is_none_or(|s| s.f.is_black()), "{bad}");
+        assert!(bsdf.sample_f(view(0.5), UC, U, all).is_none_or(|s| s.f.is_black()), "{bad}");
         assert_eq!(bsdf.rejected(), 2, "{bad}");
-        assert!(bsdf.rho_hd(view(0.5), &[U], all).is_black(), "{bad}");
-        assert!(bsdf.rho_hh(&[U], &[U], all).is_black(), "{bad}");
+        assert!(bsdf.rho_hd(view(0.5), &[UC], &[U], all).is_black(), "{bad}");
+        assert!(bsdf.rho_hh(&[U], &[UC], &[U], all).is_black(), "{bad}");
         assert_eq!(bsdf.rejected(), 4, "{bad}");
         // The same from a delta lobe, whose own value is passed on.
         let specular = Broken { flags: BxdfFlags::REFLECTION | BxdfFlags::SPECULAR, ..lobe };
         let bsdf = flat(&specular);
-        assert!(bsdf.sample_f(view(0.5), U, all).is_none_or(|s| s.f.is_black()), "{bad}");
+        assert!(bsdf.sample_f(view(0.5), UC, U, all).is_none_or(|s| s.f.is_black()), "{bad}");
         assert_eq!(bsdf.rejected(), 1, "{bad}");
     }
 }
@@ -52,7 +53,7 @@ fn bad_densities_give_no_sample() {
                 lobe.flags = BxdfFlags::REFLECTION | BxdfFlags::SPECULAR;
             }
             let bsdf = flat(&lobe);
-            assert!(bsdf.sample_f(view(0.5), U, all).is_none(), "{bad}, specular {specular}");
+            assert!(bsdf.sample_f(view(0.5), UC, U, all).is_none(), "{bad}, specular {specular}");
             assert_eq!(bsdf.rejected(), 1, "{bad}, specular {specular}");
             assert_eq!(bsdf.pdf(view(0.5), Vec3::Z, all), 0.0, "{bad}");
             assert_eq!(bsdf.rejected(), 2, "{bad}, specular {specular}");
@@ -70,7 +71,7 @@ fn bad_directions_give_no_sample() {
                 lobe.flags = BxdfFlags::REFLECTION | BxdfFlags::SPECULAR;
             }
             let bsdf = flat(&lobe);
-            assert!(bsdf.sample_f(view(0.5), U, BxdfFlags::all()).is_none(), "{wi}");
+            assert!(bsdf.sample_f(view(0.5), UC, U, BxdfFlags::all()).is_none(), "{wi}");
             assert_eq!(bsdf.rejected(), 1, "{wi}");
         }
     }
@@ -93,7 +94,7 @@ fn overflow_of_a_real_model_is_caught() {
 fn directions_along_the_surface_reach_no_lobe() {
     let lobe = Counting::default();
     for n in [Vec3::X, Vec3::Y, Vec3::Z, Vec3::NEG_X, Vec3::NEG_Y, Vec3::NEG_Z] {
-        let mut bsdf = Bsdf::new(Frame::from_normal(n), n, 1.0);
+        let mut bsdf = Bsdf::new(Frame::from_normal(n), n);
         bsdf.add(Lobe::Custom(&lobe));
         let along = Vec3::new(n.y, n.z, n.x);
         for wo in [along, -along] {
@@ -101,8 +102,8 @@ fn directions_along_the_surface_reach_no_lobe() {
             // Which side wi counts for is open, so that both are asked for.
             assert!(bsdf.f(wo, n, all).is_black() && bsdf.f(wo, -n, all).is_black(), "{n}, {wo}");
             assert_eq!(bsdf.pdf(wo, n, all), 0.0, "{n}, {wo}");
-            assert!(bsdf.sample_f(wo, U, all).is_none(), "{n}, {wo}");
-            assert!(bsdf.rho_hd(wo, &[U], all).is_black(), "{n}, {wo}");
+            assert!(bsdf.sample_f(wo, UC, U, all).is_none(), "{n}, {wo}");
+            assert!(bsdf.rho_hd(wo, &[UC], &[U], all).is_black(), "{n}, {wo}");
             assert_eq!(lobe.calls(), 0, "{n}, {wo}");
         }
     }

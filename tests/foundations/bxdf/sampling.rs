@@ -1,18 +1,18 @@
 //! `sample_f` draws what `pdf` says, and returns what `f` and `pdf` say.
 
-use lobe::bxdf::{Bsdf, Lobe};
+use lobe::bxdf::{Bsdf, LambertianReflection, Lobe};
 use lobe::geometry::Frame;
 use lobe::glam::Vec3;
 
-use super::{VIEWS, lobes, view};
+use super::{COLOR, VIEWS, lobes, view};
 use crate::common::Rng;
-use crate::common::lobes::Scatters;
+use crate::common::lobes::{BothSides, Scatters, Through};
 use crate::common::sphere::sphere_cells;
 use crate::common::stats::assert_fits;
 
 const SAMPLES: u64 = 1_000_000;
-/// Eight lobes and three mixtures, from six directions each: one family.
-const RUNS: usize = 11 * VIEWS.len();
+/// Eight lobes and four mixtures, from six directions each: one family.
+const RUNS: usize = 12 * VIEWS.len();
 
 /// One lobe from one direction: the density, its integral, and the values that come with samples.
 fn assert_samples(lobe: &dyn Scatters, wo: Vec3, test: u64, what: &str) {
@@ -25,9 +25,9 @@ fn assert_samples(lobe: &dyn Scatters, wo: Vec3, test: u64, what: &str) {
     let mut observed = vec![0; cells.count()];
     let (mut rng, mut missed) = (Rng::new(test, 0), 0);
     for trial in 0..SAMPLES {
-        let u = rng.square();
+        let (uc, u) = (rng.f32(), rng.square());
         // The border of the square gives directions along the surface, which have no density.
-        let Some(sample) = lobe.sample_f(wo, u) else {
+        let Some(sample) = lobe.sample_f(wo, uc, u) else {
             missed += 1;
             continue;
         };
@@ -38,11 +38,11 @@ fn assert_samples(lobe: &dyn Scatters, wo: Vec3, test: u64, what: &str) {
             let close = |a: f32, b: f32| (a - b).abs() <= 1e-3 * a.abs().max(b.abs()) + 1e-6;
             assert!(
                 close(sample.pdf, pdf),
-                "{what}: pdf {} of {u}, but pdf() is {pdf}",
+                "{what}: pdf {} of {uc}, {u}, but pdf() is {pdf}",
                 sample.pdf
             );
             for (of_sample, f) in sample.f.to_array().into_iter().zip(f) {
-                assert!(close(of_sample, f), "{what}: f {of_sample} of {u}, but f() is {f}");
+                assert!(close(of_sample, f), "{what}: f {of_sample} of {uc}, {u}, but f() is {f}");
             }
         }
     }
@@ -70,7 +70,7 @@ fn mixtures() {
     let lobes = lobes();
     let n = Vec3::new(0.36, -0.48, -0.8);
     for (run, first) in [(0, 6), (1, 5), (2, 0)] {
-        let mut bsdf = Bsdf::new(Frame::from_normal(n), n, 1.0);
+        let mut bsdf = Bsdf::new(Frame::from_normal(n), n);
         for (_, lobe) in &lobes[first..] {
             assert!(bsdf.add(Lobe::Custom(&**lobe)));
         }
@@ -81,4 +81,22 @@ fn mixtures() {
         }
         assert_eq!(bsdf.rejected(), 0);
     }
+}
+
+/// A lobe with two events among others. Caught: `uc` used for the choice of a lobe and, not stretched again, for that of
+/// its event.
+#[test]
+fn events_within_a_mixture() {
+    let n = Vec3::new(0.36, -0.48, -0.8);
+    let both = BothSides { reflects: 0.2, transmits: 0.5 };
+    let through = Through(0.3);
+    let mut bsdf = Bsdf::new(Frame::from_normal(n), n);
+    bsdf.add(LambertianReflection::new(COLOR));
+    bsdf.add(Lobe::Custom(&both));
+    bsdf.add(Lobe::Custom(&through));
+    for (direction, cos) in VIEWS.into_iter().enumerate() {
+        let test = 200 + (3 * VIEWS.len() + direction) as u64;
+        assert_samples(&bsdf, view(cos), test, &format!("two events among others, cos {cos}"));
+    }
+    assert_eq!(bsdf.rejected(), 0);
 }

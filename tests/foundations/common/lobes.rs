@@ -12,7 +12,7 @@ use lobe::sampling::cosine_hemisphere;
 pub trait Scatters {
     fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum;
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32;
-    fn sample_f(&self, wo: Vec3, u: Vec2) -> Option<BxdfSample>;
+    fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample>;
 }
 
 impl Scatters for &dyn BxDF {
@@ -22,8 +22,8 @@ impl Scatters for &dyn BxDF {
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
         (**self).pdf(wo, wi)
     }
-    fn sample_f(&self, wo: Vec3, u: Vec2) -> Option<BxdfSample> {
-        (**self).sample_f(wo, u)
+    fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
+        (**self).sample_f(wo, uc, u)
     }
 }
 
@@ -37,10 +37,11 @@ impl Scatters for Bsdf<'_> {
         let frame = self.frame();
         Bsdf::pdf(self, frame.to_world(wo), frame.to_world(wi), BxdfFlags::all())
     }
-    fn sample_f(&self, wo: Vec3, u: Vec2) -> Option<BxdfSample> {
+    fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
         let frame = self.frame();
-        let sample = Bsdf::sample_f(self, frame.to_world(wo), u, BxdfFlags::all())?;
-        Some(BxdfSample { wi: frame.to_local(sample.wi), ..sample })
+        let mut sample = Bsdf::sample_f(self, frame.to_world(wo), uc, u, BxdfFlags::all())?;
+        sample.wi = frame.to_local(sample.wi);
+        Some(sample)
     }
 }
 
@@ -63,11 +64,11 @@ impl BxDF for Stretched {
         Spectrum::splat(if cos > 0.0 { self.r * self.pdf(wo, wi) / cos } else { 0.0 })
     }
 
-    fn sample_f(&self, wo: Vec3, u: Vec2) -> Option<BxdfSample> {
+    fn sample_f(&self, wo: Vec3, _uc: f32, u: Vec2) -> Option<BxdfSample> {
         let mut wi = (self.m * cosine_hemisphere::sample(u)).normalize();
         wi.z = wi.z.copysign(wo.z);
         let pdf = self.pdf(wo, wi);
-        (pdf > 0.0).then(|| BxdfSample { f: self.f(wo, wi), wi, pdf, flags: self.flags() })
+        (pdf > 0.0).then(|| BxdfSample::glossy(self.f(wo, wi), wi, pdf))
     }
 
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
@@ -94,15 +95,53 @@ impl BxDF for Through {
         Spectrum::splat(self.0 * FRAC_1_PI)
     }
 
-    fn sample_f(&self, wo: Vec3, u: Vec2) -> Option<BxdfSample> {
+    fn sample_f(&self, wo: Vec3, _uc: f32, u: Vec2) -> Option<BxdfSample> {
         let mut wi = cosine_hemisphere::sample(u);
         wi.z = wi.z.copysign(-wo.z);
         let pdf = self.pdf(wo, wi);
-        (pdf > 0.0).then(|| BxdfSample { f: self.f(wo, wi), wi, pdf, flags: self.flags() })
+        (pdf > 0.0).then(|| BxdfSample::diffuse(self.f(wo, wi), wi, pdf).transmitted(1.0))
     }
 
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
         if (wi.z > 0.0) != (wo.z > 0.0) { wi.z.abs() * FRAC_1_PI } else { 0.0 }
+    }
+}
+
+/// Lambert's law on both sides: `uc` chooses the side.
+#[derive(Clone, Copy)]
+pub struct BothSides {
+    pub reflects: f32,
+    pub transmits: f32,
+}
+
+impl BothSides {
+    /// The albedo of the side, and how likely it is chosen.
+    fn side(&self, wo: Vec3, wi: Vec3) -> (f32, f32) {
+        let r = if (wi.z > 0.0) == (wo.z > 0.0) { self.reflects } else { self.transmits };
+        (r, r / (self.reflects + self.transmits))
+    }
+}
+
+impl BxDF for BothSides {
+    fn flags(&self) -> BxdfFlags {
+        BxdfFlags::REFLECTION | BxdfFlags::TRANSMISSION | BxdfFlags::DIFFUSE
+    }
+
+    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+        Spectrum::splat(self.side(wo, wi).0 * FRAC_1_PI)
+    }
+
+    fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
+        let reflects = uc < self.side(wo, wo).1;
+        let mut wi = cosine_hemisphere::sample(u);
+        wi.z = wi.z.copysign(if reflects { wo.z } else { -wo.z });
+        let pdf = self.pdf(wo, wi);
+        let event = BxdfSample::diffuse(self.f(wo, wi), wi, pdf);
+        (pdf > 0.0).then_some(if reflects { event } else { event.transmitted(1.0) })
+    }
+
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        self.side(wo, wi).1 * wi.z.abs() * FRAC_1_PI
     }
 }
 
@@ -123,19 +162,14 @@ impl BxDF for Delta {
         Spectrum::BLACK
     }
 
-    fn sample_f(&self, wo: Vec3, _u: Vec2) -> Option<BxdfSample> {
+    fn sample_f(&self, wo: Vec3, _uc: f32, _u: Vec2) -> Option<BxdfSample> {
         let n = Vec3::Z * wo.z.signum();
-        let wi = match self.eta {
-            None => lobe::geometry::reflect(wo, n),
-            Some(eta) if wo.z > 0.0 => lobe::geometry::refract(wo, n, 1.0 / eta)?,
-            Some(eta) => lobe::geometry::refract(wo, n, eta)?,
+        let event = |wi: Vec3| BxdfSample::specular(Spectrum::splat(self.r / wi.z.abs()), wi, 1.0);
+        let Some(eta) = self.eta else {
+            return Some(event(lobe::geometry::reflect(wo, n)));
         };
-        Some(BxdfSample {
-            f: Spectrum::splat(self.r / wi.z.abs()),
-            wi,
-            pdf: 1.0,
-            flags: self.flags(),
-        })
+        let eta = if wo.z > 0.0 { eta } else { 1.0 / eta };
+        Some(event(lobe::geometry::refract(wo, n, 1.0 / eta)?).transmitted(eta))
     }
 
     fn pdf(&self, _wo: Vec3, _wi: Vec3) -> f32 {
@@ -180,16 +214,20 @@ impl BxDF for Broken {
     fn f(&self, _wo: Vec3, _wi: Vec3) -> Spectrum {
         Spectrum::new(0.1, self.f, 0.1)
     }
-    fn sample_f(&self, wo: Vec3, _u: Vec2) -> Option<BxdfSample> {
-        Some(BxdfSample { f: self.f(wo, self.wi), wi: self.wi, pdf: self.pdf, flags: self.flags })
+    fn sample_f(&self, wo: Vec3, _uc: f32, _u: Vec2) -> Option<BxdfSample> {
+        let event = match self.flags.contains(BxdfFlags::SPECULAR) {
+            true => BxdfSample::specular,
+            false => BxdfSample::diffuse,
+        };
+        Some(event(self.f(wo, self.wi), self.wi, self.pdf))
     }
     fn pdf(&self, _wo: Vec3, _wi: Vec3) -> f32 {
         self.pdf
     }
-    fn rho_hd(&self, wo: Vec3, _u: &[Vec2]) -> Spectrum {
+    fn rho_hd(&self, wo: Vec3, _uc: &[f32], _u: &[Vec2]) -> Spectrum {
         self.f(wo, wo)
     }
-    fn rho_hh(&self, _u1: &[Vec2], _u2: &[Vec2]) -> Spectrum {
+    fn rho_hh(&self, _u1: &[Vec2], _uc: &[f32], _u2: &[Vec2]) -> Spectrum {
         self.f(Vec3::Z, Vec3::Z)
     }
 }

@@ -6,7 +6,7 @@ use lobe::TriangleMesh;
 use lobe::glam::{DVec3, Vec2, Vec3};
 use lobe::interaction::SurfaceInteraction;
 use lobe::material::bump;
-use lobe::texture::{Texture, TextureHandle};
+use lobe::texture::Texture;
 
 use crate::common::Rng;
 
@@ -27,12 +27,6 @@ impl Waves {
 impl Texture<f32> for Waves {
     fn evaluate(&self, si: &SurfaceInteraction) -> f32 {
         (self.height * (self.frequency * (f64::from(si.uv().x) - self.at)).sin()) as f32
-    }
-}
-
-impl From<Waves> for TextureHandle<f32> {
-    fn from(waves: Waves) -> Self {
-        Arc::new(waves).into()
     }
 }
 
@@ -62,7 +56,7 @@ fn waves_tilt_a_plane() {
         let waves = Waves { height: f64::from(size) * 0.1, frequency: 5.0, at: u.into() };
         let mut si =
             SurfaceInteraction::on_triangle(&mesh, rng.below(2), rng.barycentric(), Vec3::Z);
-        bump(&waves.into(), &mut si);
+        bump(&waves, &mut si);
         // u = du x / size.
         let slope = waves.slope(si.uv().x.into()) * f64::from(du) / f64::from(size);
         let truth = DVec3::new(-slope, 0.0, 1.0).normalize();
@@ -95,7 +89,7 @@ fn waves_tilt_a_smooth_surface() {
         let u = f64::from(si.uv().x);
         let displaced = (dpdu + waves.slope(u) * n + d * dndu).cross(dpdv + d * dndv).normalize();
         let truth = displaced * displaced.dot(n).signum();
-        bump(&waves.into(), &mut si);
+        bump(&waves, &mut si);
         let error = (si.shading_n().as_dvec3() - truth).length();
         assert!(error < 1e-3, "trial {trial}: {}, expected {truth}", si.shading_n());
     }
@@ -109,7 +103,7 @@ fn a_constant_displacement_changes_nothing_on_a_plane() {
         let mesh = plane(2.0, 0.0, 1.0);
         let mut si = SurfaceInteraction::on_triangle(&mesh, 0, [0.2, 0.3, 0.5], Vec3::Z);
         let before = si.shading();
-        bump(&height.into(), &mut si);
+        bump(&height, &mut si);
         assert_eq!(si.shading(), before, "height {height}");
         assert_eq!(si.shading_n(), Vec3::Z, "height {height}");
     }
@@ -126,7 +120,7 @@ fn mirrored_texture_coordinates_give_the_same_normal() {
             let mesh = plane(1.0, 0.0, du);
             let waves = Waves { height: 0.1, frequency: 3.0 * f64::from(du), at: phase };
             let mut si = SurfaceInteraction::on_triangle(&mesh, triangle, b, Vec3::Z);
-            bump(&waves.into(), &mut si);
+            bump(&waves, &mut si);
             si.shading_n()
         };
         let (there, mirrored) = (normal(1.0, 0.3), normal(-1.0, -0.3));
@@ -158,7 +152,7 @@ fn a_displacement_may_ask_for_the_normal() {
         let slope = c * (dndu - n * n.dot(dndu)).x;
         let displaced = dpdu + slope * n + c * n.x * dndu;
         let truth = displaced.cross(dpdv).normalize();
-        bump(&Arc::new(OfNormal(c as f32)).into(), &mut si);
+        bump(&Arc::new(OfNormal(c as f32)), &mut si);
         let error = (si.shading_n().as_dvec3() - truth).length();
         assert!(error < 1e-3, "size {size}: {}, expected {truth}", si.shading_n());
     }
@@ -171,7 +165,7 @@ fn a_displacement_that_is_none_changes_nothing() {
     for bad in [f32::NAN, f32::INFINITY] {
         let mut si = SurfaceInteraction::on_triangle(&mesh, 0, [0.2, 0.3, 0.5], Vec3::Z);
         let before = si.shading();
-        bump(&bad.into(), &mut si);
+        bump(&bad, &mut si);
         assert_eq!(si.shading(), before, "{bad}");
     }
 }

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use lobe::Spectrum;
-use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, LambertianReflection, OrenNayar, TransportMode};
+use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, LambertianReflection, OrenNayar};
 use lobe::glam::Vec3;
 use lobe::interaction::SurfaceInteraction;
 use lobe::material::{Material, MatteMaterial};
-use lobe::texture::{ConstantTexture, Texture, TextureHandle};
+use lobe::texture::{ConstantTexture, Texture};
 
 use crate::common::meshes::single;
 
@@ -27,7 +27,7 @@ fn with_bsdf(material: &MatteMaterial, look: impl FnOnce(&Bsdf, &SurfaceInteract
     let mesh = single([Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0)]);
     let mut si = SurfaceInteraction::on_triangle(&mesh, 0, B, Vec3::Z);
     let arena = Arena::new();
-    let bsdf = material.compute_scattering(&mut si, &arena, TransportMode::Radiance, true);
+    let bsdf = material.compute_scattering(&mut si, &arena);
     look(&bsdf, &si);
 }
 
@@ -114,8 +114,8 @@ fn constant_textures_are_constant() {
         let si = SurfaceInteraction::on_triangle(&mesh, 0, b, Vec3::Z);
         assert_eq!(ConstantTexture::new(0.25_f32).evaluate(&si), 0.25);
         assert_eq!(ConstantTexture::new(color).evaluate(&si), color);
-        assert_eq!(TextureHandle::from(0.25).evaluate(&si), 0.25);
-        assert_eq!(TextureHandle::from([0.1, 0.2, 0.3]).evaluate(&si), color);
-        assert_eq!(TextureHandle::from(Arc::new(ConstantTexture::new(color))).evaluate(&si), color);
+        assert_eq!(0.25_f32.into_handle().evaluate(&si), 0.25);
+        assert_eq!([0.1, 0.2, 0.3].into_handle().evaluate(&si), color);
+        assert_eq!(Arc::new(ConstantTexture::new(color)).into_handle().evaluate(&si), color);
     }
 }

@@ -1,5 +1,6 @@
 //! The shading normal and its frame.
 
+use lobe::bxdf::Bsdf;
 use lobe::glam::Vec3;
 use lobe::interaction::{Shading, SurfaceInteraction};
 
@@ -33,13 +34,13 @@ fn vertex_normals_shade() {
                 "trial {trial}: {tangent}, expected {expected}"
             );
         }
-        let frame = si.tangent_frame();
+        let frame = *Bsdf::along_u(&si).frame();
         assert_eq!(frame.n, n, "trial {trial}");
         assert!(
             frame.s.distance((dpdu / dpdu.abs().max_element()).normalize()) < 1e-4,
             "trial {trial}"
         );
-        assert_eq!(si.isotropic_frame().n, n, "trial {trial}");
+        assert_eq!(Bsdf::isotropic(&si).frame().n, n, "trial {trial}");
     }
 }
 
@@ -71,7 +72,8 @@ fn missing_normals() {
     }
 }
 
-/// What bump mapping sets is what everyone sees. Caught: the shading normal left as it was.
+/// What bump mapping sets is what everyone sees, as a unit normal on the geometric one's side. Caught: the shading normal
+/// left as it was; a normal of NaN set; no normalisation; no turning.
 #[test]
 fn shading_can_be_replaced() {
     let mut rng = Rng::new(912, 0);
@@ -82,7 +84,11 @@ fn shading_can_be_replaced() {
         Shading { n: Vec3::Y, dpdu: Vec3::X, dpdv: Vec3::Z, dndu: Vec3::X, dndv: Vec3::ZERO };
     si.set_shading(other);
     assert_eq!((si.shading(), si.shading_n()), (other, Vec3::Y));
-    assert_eq!((si.isotropic_frame().n, si.tangent_frame().s), (Vec3::Y, Vec3::X));
+    assert_eq!((Bsdf::isotropic(&si).frame().n, Bsdf::along_u(&si).frame().s), (Vec3::Y, Vec3::X));
+    for same in [2.0 * Vec3::Y, Vec3::NEG_Y, Vec3::ZERO, Vec3::NAN, Vec3::INFINITY] {
+        si.set_shading(Shading { n: same, ..other });
+        assert_eq!((si.shading(), si.shading_n()), (other, Vec3::Y), "{same}");
+    }
     assert_eq!((si.n(), si.dpdu()), (n, dpdu), "the surface itself stays");
     assert_eq!((si.clone().shading(), si.clone().shading_n()), (other, Vec3::Y));
 }

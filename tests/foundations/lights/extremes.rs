@@ -44,9 +44,12 @@ fn all_samples_are_finite() {
                         assert!(sample.from.unwrap().is_finite(), "{what}: {sample:?}");
                         for distance in [0.0, scale, 1e12, f32::INFINITY] {
                             for n in [n, -n, Vec3::ZERO, sample.wi.any_orthonormal_vector()] {
-                                let hit = LightHit { origin: p, wi: sample.wi, distance, n };
+                                let hit = LightHit::new(p, sample.wi, distance, n);
                                 let pdf = light.pdf_li(&hit);
-                                assert!(pdf >= 0.0 && pdf.is_finite(), "{what}: {pdf}, {hit:?}");
+                                assert!(
+                                    pdf >= 0.0 && pdf.is_finite(),
+                                    "{what}: {pdf}, {distance}, {n}"
+                                );
                             }
                         }
                     }

@@ -27,11 +27,11 @@ fn rectangle(corner: Vec3, x: Vec3, y: Vec3) -> TriangleMesh {
 }
 
 /// What a ray from `origin` along `wi` meets of the mesh.
-fn trace(accel: &Accel, mesh: &TriangleMesh, origin: Vec3, wi: Vec3) -> Option<LightHit> {
+fn trace(accel: &Accel, mesh: &TriangleMesh, origin: Vec3, wi: Vec3) -> Option<LightHit<'static>> {
     let hit = accel.intersect1(&Ray::new(origin, wi));
     hit.is_hit().then(|| {
         let si = SurfaceInteraction::on_triangle(mesh, hit.triangle as usize, hit.b, -wi);
-        LightHit { origin, wi, distance: hit.t, n: si.n() }
+        LightHit::new(origin, wi, hit.t, si.n())
     })
 }
 
