@@ -11,8 +11,8 @@ use lobe::film::{Display, Filter, Window};
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::light::Light;
 use lobe::scene::{
-    IntegratorSettings, LightStrategy, LoadedScene, SamplerKind, SceneFileError, parse_scene,
-    read_scene,
+    IntegratorSettings, LightStrategy, LoadedScene, SamplerKind, SamplerSettings, SceneFileError,
+    parse_scene, read_scene,
 };
 use lobe::{PerspectiveSettings, RenderSettings, Spectrum, View};
 
@@ -189,6 +189,10 @@ fn everything_has_a_default_in_an_empty_file() {
         assert_camera(&view, &PerspectiveSettings::default());
         assert_eq!(*view.film(), Default::default());
         assert_eq!(settings, Default::default());
+        // Sobol points and paths, and not what was first in the book.
+        let SamplerSettings { kind, spp, .. } = settings.sampler;
+        assert_eq!((kind, spp), (SamplerKind::Sobol, 64));
+        assert_eq!(settings.integrator, IntegratorSettings::path(5));
         assert_eq!(scene.shapes().count(), 0);
     }
 }
