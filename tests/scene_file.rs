@@ -262,8 +262,8 @@ fn unknown_keys() {
         ),
         ("[sampler]\nssp = 1", "s.toml:2:1: unknown key `ssp` in [sampler]; did you mean `spp`?"),
         (
-            "[integrator]\nhighligth = true",
-            "s.toml:2:1: unknown key `highligth` in [integrator]; did you mean `highlight`?",
+            "[integrator]\ntype = \"chapter\"\nhighligth = true",
+            "s.toml:3:1: unknown key `highligth` in [integrator] of type \"chapter\"; did you mean `highlight`?",
         ),
         (
             "[film]\nfilter_radius = 2",
@@ -391,8 +391,8 @@ fn wrong_types() {
             "s.toml:2:8: `sampler.seed` is -1, expected a whole number from 0 to 18446744073709551615",
         ),
         (
-            "[integrator]\nhighlight = 1",
-            "s.toml:2:13: `integrator.highlight` is 1, expected true or false",
+            "[integrator]\ntype = \"chapter\"\nhighlight = 1",
+            "s.toml:3:13: `integrator.highlight` is 1, expected true or false",
         ),
         (
             "[integrator]\ntype = \"bdpt\"",
