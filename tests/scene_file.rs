@@ -11,8 +11,8 @@ use lobe::film::{Display, Filter, Window};
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::light::Light;
 use lobe::scene::{
-    IntegratorSettings, LightStrategy, LoadedScene, SamplerKind, SceneFileError, parse_scene,
-    read_scene,
+    IntegratorSettings, LightStrategy, LoadedScene, SamplerKind, SamplerSettings, SceneFileError,
+    parse_scene, read_scene,
 };
 use lobe::{PerspectiveSettings, RenderSettings, Spectrum, View};
 
@@ -189,6 +189,10 @@ fn everything_has_a_default_in_an_empty_file() {
         assert_camera(&view, &PerspectiveSettings::default());
         assert_eq!(*view.film(), Default::default());
         assert_eq!(settings, Default::default());
+        // Sobol points and paths, and not what was first in the book.
+        let SamplerSettings { kind, spp, .. } = settings.sampler;
+        assert_eq!((kind, spp), (SamplerKind::Sobol, 64));
+        assert_eq!(settings.integrator, IntegratorSettings::path(5));
         assert_eq!(scene.shapes().count(), 0);
     }
 }
@@ -258,8 +262,8 @@ fn unknown_keys() {
         ),
         ("[sampler]\nssp = 1", "s.toml:2:1: unknown key `ssp` in [sampler]; did you mean `spp`?"),
         (
-            "[integrator]\nhighligth = true",
-            "s.toml:2:1: unknown key `highligth` in [integrator]; did you mean `highlight`?",
+            "[integrator]\ntype = \"chapter\"\nhighligth = true",
+            "s.toml:3:1: unknown key `highligth` in [integrator] of type \"chapter\"; did you mean `highlight`?",
         ),
         (
             "[film]\nfilter_radius = 2",
@@ -387,8 +391,8 @@ fn wrong_types() {
             "s.toml:2:8: `sampler.seed` is -1, expected a whole number from 0 to 18446744073709551615",
         ),
         (
-            "[integrator]\nhighlight = 1",
-            "s.toml:2:13: `integrator.highlight` is 1, expected true or false",
+            "[integrator]\ntype = \"chapter\"\nhighlight = 1",
+            "s.toml:3:13: `integrator.highlight` is 1, expected true or false",
         ),
         (
             "[integrator]\ntype = \"bdpt\"",

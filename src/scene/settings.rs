@@ -64,11 +64,11 @@ pub enum SettingsError {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SamplerKind {
     /// [`IndependentSampler`](crate::sampling::IndependentSampler).
-    #[default]
     Independent,
     /// [`StratifiedSampler`](crate::sampling::StratifiedSampler).
     Stratified,
     /// [`SobolSampler`](crate::sampling::SobolSampler).
+    #[default]
     Sobol,
     /// [`BlueNoiseSampler`](crate::sampling::BlueNoiseSampler).
     BlueNoise,
@@ -83,9 +83,8 @@ pub struct SamplerSettings {
     pub spp: u32,
     /// Each seed gives another set of samples.
     pub seed: u64,
-    /// Into how many independent sets a sampler whose samples know of each other divides those of a pixel. From
-    /// how far their means differ the film tells its error, which one set cannot: see
-    /// [`SamplerSettings::sets`].
+    /// Into how many independent sets a correlated sampler divides the samples of a pixel. The film tells its error
+    /// from how far their means differ, which one set cannot: see [`SamplerSettings::sets`].
     pub replicates: u32,
 }
 
@@ -98,11 +97,11 @@ impl SamplerSettings {
         if self.spp == 0 { Err(SettingsError::NoSamples) } else { Ok(()) }
     }
 
-    /// More sets than this tell no more of the error.
+    /// The most sets that are made: more tell no more of the error.
     pub const MOST_SETS: u32 = 1024;
 
     /// How many independent sets the samples of a pixel are divided into, all of the same size: the largest
-    /// divisor of `spp` that is not above `replicates`; one set if the samples do not know of each other.
+    /// divisor of `spp` that is not above `replicates`; one set if the samples are independent.
     pub fn sets(&self) -> u32 {
         if self.kind == SamplerKind::Independent {
             return 1;
@@ -113,9 +112,9 @@ impl SamplerSettings {
 }
 
 impl Default for SamplerSettings {
-    /// 64 independent samples.
+    /// 64 Sobol samples in two sets.
     fn default() -> Self {
-        Self { kind: SamplerKind::Independent, spp: 64, seed: 0, replicates: 2 }
+        Self { kind: SamplerKind::Sobol, spp: 64, seed: 0, replicates: 2 }
     }
 }
 
@@ -134,7 +133,9 @@ pub enum IntegratorSettings {
     },
     /// Light of any number of reflections: see [`PathIntegrator`](crate::integrator::PathIntegrator).
     Path {
-        /// The most reflections that a path has.
+        /// The most reflections and refractions that a path has. Light that takes more is missing, so that a picture
+        /// of many bounces is too dark: a faceted glass ball in a white furnace shows 0.9976 of its light at 64, and
+        /// 1.0000 at 8192.
         max_depth: u32,
         /// Whether paths that carry little end at random.
         roulette: bool,
@@ -182,8 +183,8 @@ impl IntegratorSettings {
 }
 
 impl Default for IntegratorSettings {
-    /// The chapter's picture without highlight.
+    /// Paths of up to 5 reflections, as many as in PBRT.
     fn default() -> Self {
-        Self::Chapter { highlight: false }
+        Self::path(5)
     }
 }

@@ -11,7 +11,10 @@ eye = [0, 1, -3]
 [film]
 resolution = [20, 10]
 [sampler]
+type = "independent"
 spp = 2
+[integrator]
+type = "chapter"
 [material.clay]
 type = "matte"
 [light.key]

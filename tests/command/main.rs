@@ -203,10 +203,10 @@ fn bad_meshes() {
     ];
     for (mesh, message) in cases {
         folder.write("wall.obj", mesh);
-        folder.fails("render s.toml", &format!("s.toml:15:7: wall.obj{message}"));
+        folder.fails("render s.toml", &format!("s.toml:18:7: wall.obj{message}"));
     }
     fs::remove_file(folder.0.join("wall.obj")).unwrap();
-    folder.fails("render s.toml", "s.toml:15:7: wall.obj: there is no such file");
+    folder.fails("render s.toml", "s.toml:18:7: wall.obj: there is no such file");
 }
 
 #[test]

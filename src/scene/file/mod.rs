@@ -103,13 +103,13 @@ fn read_text(path: &Path) -> Result<String, SceneFileError> {
 /// | | `filter` | `"box"`, `"tent"`, `"gaussian"` or `"blackman-harris"` | `"box"` |
 /// | | `filter_radius` | in pixels, above 0 and up to 16, for all but `"box"` | 1 (tent), 1.5 |
 /// | | `filter_sigma` | in pixels, above 0, for `"gaussian"` | 0.5 |
-/// | `[sampler]` | `type` | `"independent"`, `"stratified"`, `"sobol"` or `"blue-noise"` | `"independent"` |
+/// | `[sampler]` | `type` | `"independent"`, `"stratified"`, `"sobol"` or `"blue-noise"` | `"sobol"` |
 /// | | `spp` | samples per pixel, at least 1 | 64 |
 /// | | `seed` | each gives other samples | 0 |
 /// | | `replicates` | sets to tell the error from, for all but `"independent"`; of them the largest number that divides `spp` | 2 |
-/// | `[integrator]` | `type` | `"chapter"`, `"direct"` or `"path"` | `"chapter"` |
+/// | `[integrator]` | `type` | `"chapter"`, `"direct"` or `"path"` | `"path"` |
 /// | | `highlight` | for `"chapter"`: whether to add the Blinn-Phong factor | false |
-/// | | `max_depth` | for `"path"`: the most reflections | 5 |
+/// | | `max_depth` | for `"path"`: the most reflections; light that takes more is missing | 5 |
 /// | | `roulette` | for `"path"`: whether paths that carry little end at random | true |
 /// | | `strategy` | for `"direct"` and `"path"`: how light is looked for, `"auto"`, `"mis"`, `"light"` or `"bsdf"` | `"auto"` |
 /// | `[texture.NAME]` | `type` | `"constant"` | required |
