@@ -30,12 +30,18 @@ pub enum SceneError {
     Mesh(String, MeshError),
 }
 
+/// Light from a shape as it was added.
+enum NewEmission {
+    Constant(Emission),
+    Light(Arc<dyn Light>),
+}
+
 /// A shape as it was added.
 struct NewShape {
     name: String,
     mesh: TriangleMesh,
     material: Option<String>,
-    emission: Option<Emission>,
+    emission: Option<NewEmission>,
 }
 
 /// Collects the parts of a [`Scene`] in any order, and checks them at the end.
@@ -86,6 +92,23 @@ impl SceneBuilder {
         material: Option<String>,
         emission: Option<Emission>,
     ) -> Self {
+        let emission = emission.map(NewEmission::Constant);
+        self.shapes.push(NewShape { name, mesh, material, emission });
+        self
+    }
+
+    /// Adds a mesh in world space whose surface is this light, and which reflects what the material of that name
+    /// does, or nothing. The light has to sample the same mesh, or answer `None`; rays that hit the mesh ask it for
+    /// [`Light::le`], with the place of the hit, so that emission may differ from point to point.
+    pub fn shape_with_light(
+        mut self,
+        name: impl Into<String>,
+        mesh: TriangleMesh,
+        material: Option<&str>,
+        light: impl Light + 'static,
+    ) -> Self {
+        let (name, material) = (name.into(), material.map(str::to_owned));
+        let emission = Some(NewEmission::Light(light.into_arc()));
         self.shapes.push(NewShape { name, mesh, material, emission });
         self
     }
@@ -116,14 +139,16 @@ impl SceneBuilder {
             let flat_lambertian =
                 material.constant_lambertian().filter(|_| mesh.normals.is_empty());
             // A mesh without area can neither be seen nor shine.
-            let light = emission
-                .and_then(|Emission { radiance, two_sided }| {
-                    AreaLight::new(&mesh, radiance, two_sided)
-                })
-                .map(|light| {
-                    lights.push(Arc::new(light));
-                    lights.len() - 1
-                });
+            let light: Option<Arc<dyn Light>> = emission.and_then(|emission| match emission {
+                NewEmission::Constant(Emission { radiance, two_sided }) => {
+                    AreaLight::new(&mesh, radiance, two_sided).map(|light| Arc::new(light) as _)
+                }
+                NewEmission::Light(light) => Some(light),
+            });
+            let light = light.map(|light| {
+                lights.push(light);
+                lights.len() - 1
+            });
             shapes.push(Shape { name, material, light, flat_lambertian });
             meshes.push(mesh);
         }
