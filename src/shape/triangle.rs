@@ -1,9 +1,10 @@
 //! The triangle: its normal, and whether and where a ray meets it.
 
-use glam::{DVec3, Vec3, Vec3A, Vec3Swizzles};
+use glam::{DVec3, Vec3, Vec3A, Vec3Swizzles, Vec4};
 
 use crate::geometry::Ray;
 use crate::geometry::float::gamma;
+use crate::geometry::four::Vec3x4;
 
 /// The unit normal of a triangle, on the side from which its corners run counter-clockwise; zero for
 /// a triangle without area.
@@ -25,6 +26,20 @@ pub fn triangle_normal([p0, p1, p2]: [Vec3; 3]) -> Vec3 {
 fn triangle_normal_f64(corners: [Vec3; 3]) -> Vec3 {
     let [p0, p1, p2] = corners.map(DVec3::from);
     (p1 - p0).cross(p2 - p0).normalize_or_zero().as_vec3()
+}
+
+/// Four lanes of [`triangle_normal`], and whether f32 is precise enough in all of them: without it,
+/// the normals are not usable.
+#[inline(always)]
+pub(crate) fn triangle_normals([p0, p1, p2]: [Vec3x4; 3]) -> (Vec3x4, bool) {
+    let (e1, e2) = (p1 - p0, p2 - p0);
+    let n = e1.cross(e2);
+    let length2 = n.length_squared();
+    let least = Vec4::splat(0.01) * e1.length_squared() * e2.length_squared();
+    let sound = length2.cmpgt(least)
+        & length2.cmpgt(Vec4::splat(f32::MIN_POSITIVE / f32::EPSILON))
+        & length2.cmplt(Vec4::INFINITY);
+    (n.divided_by(length2.sqrt()), sound.all())
 }
 
 /// A ray prepared for the triangle test: shear and permutation that turn it into the +z axis.
