@@ -7,8 +7,8 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use glam::{BVec4A, Mat4, Vec3, Vec4};
 
-use super::Ray;
 use super::float::gamma;
+use super::ray::Ray;
 
 /// The array `[f(0), f(1), f(2), f(3)]`. Unlike `std::array::from_fn` and `map`, it is always
 /// inlined.

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::unit;
+use super::vector::unit;
 
 /// A right-handed orthonormal basis (s, t, n), which defines the shading coordinate system: its z
 /// axis is the normal n.
