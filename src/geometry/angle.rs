@@ -1,21 +1,25 @@
-//! Sines, cosines and angles by series: faster than the system's mathematics, and the same bits on every machine.
+//! Sine, cosine and atan2 in f32 by polynomials.
+//!
+//! They are faster than the system's library, and their results are the same bits on every
+//! platform.
 
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use glam::{Vec2, Vec4};
 
-/// The unit vector at `share` of an eighth of a turn, for shares from -1 to 1: within 2⁻²³.
+/// The unit vector (cos φ, sin φ) at φ = π/4 · `share`, for `share` in `[-1, 1]`. Absolute error of
+/// each component: at most 2⁻²³.
 #[inline]
 pub fn eighth_turn(share: f32) -> Vec2 {
     let x = FRAC_PI_4 * share;
     let x2 = x * x;
-    // Horner's rule on 1/n!, with alternating signs.
+    // Taylor series in Horner's form: the coefficients are 1/n! with alternating signs.
     let cos = 1.0 + x2 * (-0.5 + x2 * (C4 + x2 * (C6 + x2 * C8)));
     let sin = x + x * x2 * (S3 + x2 * (S5 + x2 * (S7 + x2 * S9)));
     Vec2::new(cos, sin)
 }
 
-/// Four times [`eighth_turn`], to the bit.
+/// Four lanes of [`eighth_turn`], equal to it in every bit: cosines, then sines.
 #[inline(always)]
 pub fn eighth_turn_x4(share: Vec4) -> [Vec4; 2] {
     let x = FRAC_PI_4 * share;
@@ -33,17 +37,19 @@ const S5: f32 = 1.0 / 120.0;
 const S7: f32 = -1.0 / 5_040.0;
 const S9: f32 = 1.0 / 362_880.0;
 
-/// The unit vector at `turn` of a full turn, for turns from 0 to 1: within 2⁻²³.
+/// The unit vector (cos φ, sin φ) at φ = 2π · `turn`, for `turn` in `[0, 1]`. Absolute error of
+/// each component: at most 2⁻²³.
 #[inline]
 pub fn unit_circle(turn: f32) -> Vec2 {
     let [cos, sin] = unit_circle_x4(Vec4::splat(turn));
     Vec2::new(cos.x, sin.x)
 }
 
-/// Four times [`unit_circle`].
+/// Four lanes of [`unit_circle`]: cosines, then sines.
 #[inline(always)]
 pub fn unit_circle_x4(turn: Vec4) -> [Vec4; 2] {
-    // From the nearest quarter on, which is exact.
+    // Range reduction to an eighth of a turn on either side of the nearest quarter turn. The
+    // subtraction is exact.
     let quarter = (4.0 * turn + 0.5).floor();
     let [cos, sin] = eighth_turn_x4(2.0 * (4.0 * turn - quarter));
     let is = |number: f32| quarter.cmpeq(Vec4::splat(number));
@@ -54,13 +60,15 @@ pub fn unit_circle_x4(turn: Vec4) -> [Vec4; 2] {
     [Vec4::select(left, -x, x), Vec4::select(below, -y, y)]
 }
 
-/// The angles from (1, 0) to (x, y) in radians, from -π to π: within 3e-7, and 3e-7 of themselves. Undefined for (0, 0).
+/// Four lanes of atan2(y, x): the angle from (1, 0) to (x, y) in radians, in `[-π, π]`.
+///
+/// Absolute error at most 3e-7, relative error at most 3e-7. Undefined for (0, 0).
 #[inline(always)]
 pub fn angle_x4([x, y]: [Vec4; 2]) -> Vec4 {
     let (across, along) = (x.abs(), y.abs());
     let steep = along.cmpgt(across);
     let tangent = Vec4::select(steep, across, along) / Vec4::select(steep, along, across);
-    // tan(φ - π/4) where that is smaller.
+    // Range reduction: tan(φ - π/4) = (t - 1)/(t + 1), used where it is the smaller one.
     let far = tangent.cmpgt(Vec4::splat(TAN_PI_8));
     let t = Vec4::select(far, (tangent - 1.0) / (tangent + 1.0), tangent);
     let t2 = t * t;
@@ -89,7 +97,7 @@ mod tests {
 
     use super::*;
 
-    /// Against f64, at 2^20 + 1 turns from 0 to 1.
+    /// Compared with f64 at 2^20 + 1 turns from 0 to 1.
     #[test]
     fn unit_circle_is_exact_to_rounding() {
         for i in 0..=1 << 20 {
@@ -100,7 +108,7 @@ mod tests {
         }
     }
 
-    /// Against f64, all around and at many lengths.
+    /// Compared with f64 for vectors of 2^20 directions and 20 lengths.
     #[test]
     fn angles_are_exact_to_rounding() {
         for i in -(1 << 19)..1 << 19 {

@@ -1,27 +1,41 @@
-//! [`BoundedPoint`]: a point on a surface together with the error it may have.
+//! [`BoundedPoint`]: a point on a surface with bounds on its rounding error.
 
 use glam::Vec3;
 
 use super::float::gamma;
 
-/// A computed point and a box around it that holds the exact one: `p ± error`, axis by axis.
+/// A computed point with a conservative bound on its absolute error per axis: the exact point lies
+/// in the box `p ± error`.
 ///
-/// It is what makes a ray's start safe without an epsilon that depends on the scene's scale
-/// (PBRT 3rd edition, sections 3.9.4 and 3.9.5).
+/// With it, a ray can start just outside the surface without an epsilon that depends on the scale
+/// of the scene (PBRT 3rd edition, sections 3.9.4 and 3.9.5).
+///
+/// ```
+/// use lobe::geometry::BoundedPoint;
+/// use lobe::glam::{Vec3, vec3};
+///
+/// let corners = [vec3(0.0, 0.0, 5.0), vec3(1.0, 0.0, 5.0), vec3(0.0, 1.0, 5.0)];
+/// let hit = BoundedPoint::on_triangle(corners, [0.25, 0.25, 0.5]);
+/// assert_eq!(hit.p, vec3(0.25, 0.5, 5.0));
+///
+/// // A ray that leaves upwards starts above the plane z = 5, but by less than 1e-5.
+/// let o = hit.ray_origin(Vec3::Z, Vec3::Z);
+/// assert!(o.z > 5.0 && o.z < 5.00001);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoundedPoint {
-    /// The computed point.
+    /// The computed point, in scene units.
     pub p: Vec3,
-    /// Bounds on its absolute error, none negative.
+    /// Bound on the absolute error along each axis, in scene units, never negative.
     pub error: Vec3,
 }
 
 impl BoundedPoint {
-    /// The point of a triangle with barycentric weights `b`, which add up to 1.
+    /// The point of a triangle with barycentric weights `b`, which sum to 1.
     ///
-    /// Each coordinate is a sum of three products, whose error stays within γ₇ times the sum of their
-    /// magnitudes when the weights themselves were computed with rounding
-    /// (PBRT 3rd edition, section 3.9.4).
+    /// Each coordinate is a sum of three products. With weights that are rounded themselves, its
+    /// error is at most γ₇ times the sum of the products' magnitudes (PBRT 3rd edition, section
+    /// 3.9.4; γ is [`gamma`]).
     #[inline]
     pub fn on_triangle(corners: [Vec3; 3], b: [f32; 3]) -> Self {
         let [p0, p1, p2] = corners;
@@ -29,14 +43,16 @@ impl BoundedPoint {
         Self { p: w0 + w1 + w2, error: gamma(7) * (w0.abs() + w1.abs() + w2.abs()) }
     }
 
-    /// The origin for a ray that leaves along `w` from a surface with unit normal `n`: moved along the
-    /// normal, to the side that `w` points to, just far enough to lie outside of the error box.
+    /// The origin of a ray that leaves along `w` from a surface with unit normal `n`.
+    ///
+    /// The point is offset along the normal, to the side that `w` points to, by the smallest
+    /// distance that clears the error box (PBRT 3rd edition, section 3.9.5).
     #[inline]
     pub fn ray_origin(&self, n: Vec3, w: Vec3) -> Vec3 {
         let distance = n.abs().dot(self.error);
         let offset = if w.dot(n) < 0.0 { -distance * n } else { distance * n };
         let moved = self.p + offset;
-        // The sum is rounded, perhaps towards the surface: step to the next float away from it.
+        // The sum may have been rounded towards the surface: step to the next float away from it.
         Vec3::new(
             round_away(moved.x, offset.x),
             round_away(moved.y, offset.y),
@@ -45,7 +61,8 @@ impl BoundedPoint {
     }
 }
 
-/// The next float after `value` in the direction of the sign of `offset`.
+/// The float next to `value` in the direction of the sign of `offset`; `value` itself for an offset
+/// of zero.
 #[inline]
 fn round_away(value: f32, offset: f32) -> f32 {
     if offset > 0.0 {

@@ -1,19 +1,22 @@
-//! Bounds on what rounding does to 32-bit floats.
+//! Rounding of f32: constants and error bounds.
 
-/// Unit roundoff: the largest relative error of one correctly rounded operation, 2⁻²⁴.
+/// Unit roundoff u = 2⁻²⁴: the largest relative error of one correctly rounded operation.
 pub const UNIT_ROUNDOFF: f32 = 0.5 * f32::EPSILON;
 
-/// The largest float below 1, and the largest value that a uniform sample takes.
+/// The largest float below 1, 1 - 2⁻²⁴. It is the largest value of a sample in `[0, 1)`.
 pub const ONE_MINUS_EPSILON: f32 = 1.0 - UNIT_ROUNDOFF;
 
-/// The largest coordinate that vertices and cameras may have. The ray-triangle test multiplies three
-/// lengths, and far beyond this their product leaves the range of f32. Below about 1e-12 it vanishes.
+/// The largest magnitude of a coordinate of vertices and cameras, in scene units.
+///
+/// The ray-triangle test multiplies three lengths, and far beyond this limit the product overflows
+/// f32. For lengths below about 1e-12 it underflows to zero.
 pub const LARGEST_COORDINATE: f32 = 1e12;
 
-/// Bound γₙ = n u / (1 - n u) on the relative error of `n` rounded operations in a row.
+/// The bound γₙ = n u / (1 - n u) on the relative error that `n` rounded operations in a row
+/// accumulate, with u = [`UNIT_ROUNDOFF`].
 ///
-/// Higham, *Accuracy and Stability of Numerical Algorithms*, section 3.1; PBRT 3rd edition, section 3.9.1.
-/// It is meant for small `n`: the bound holds while n u < 1.
+/// Valid while n u < 1; meant for small `n` (Higham, *Accuracy and Stability of Numerical
+/// Algorithms*, section 3.1; PBRT 3rd edition, section 3.9.1).
 #[inline]
 pub const fn gamma(n: u32) -> f32 {
     let nu = n as f32 * UNIT_ROUNDOFF;

@@ -1,29 +1,30 @@
-//! [`Vec3x4`]: four vectors at once, and what is built of them: frames, bounded points, normals and rays.
+//! Structures of arrays with four lanes: vectors, frames, bounded points and rays, four at a time.
 //!
-//! Each operation is that of its namesake for one, in the same order, so that both give the same bits.
+//! Each lane does the operations of the scalar type, in the same order, so both give the same bits.
 
 use std::hint::black_box;
 use std::ops::{Add, Mul, Neg, Sub};
 
 use glam::{BVec4A, Mat4, Vec3, Vec4};
 
-use super::Ray;
 use super::float::gamma;
+use super::ray::Ray;
 
-/// What `f` gives for 0, 1, 2 and 3. Unlike `std::array::from_fn` and `map`, it is always compiled into its
-/// caller.
+/// The array `[f(0), f(1), f(2), f(3)]`. Unlike `std::array::from_fn` and `map`, it is always
+/// inlined.
 #[inline(always)]
 pub fn four<T>(mut f: impl FnMut(usize) -> T) -> [T; 4] {
     [f(0), f(1), f(2), f(3)]
 }
 
-/// The same for 0, 1 and 2.
+/// The array `[f(0), f(1), f(2)]`, always inlined.
 #[inline(always)]
 pub fn three<T>(mut f: impl FnMut(usize) -> T) -> [T; 3] {
     [f(0), f(1), f(2)]
 }
 
-/// Four vectors, coordinate by coordinate. Each operation gives what that of [`Vec3`] gives, bit by bit.
+/// Four vectors as a structure of arrays: one register of four lanes per coordinate. Each operation
+/// gives the bits of its namesake on [`Vec3`].
 #[derive(Clone, Copy)]
 pub struct Vec3x4 {
     pub x: Vec4,
@@ -32,16 +33,16 @@ pub struct Vec3x4 {
 }
 
 impl Vec3x4 {
-    /// Four zero vectors.
+    /// The zero vector in every lane.
     pub const ZERO: Self = Self::splat(Vec3::ZERO);
 
-    /// Four times the same vector.
+    /// The same vector in every lane.
     #[inline(always)]
     pub const fn splat(v: Vec3) -> Self {
         Self { x: Vec4::splat(v.x), y: Vec4::splat(v.y), z: Vec4::splat(v.z) }
     }
 
-    /// Four vectors, read from where they are.
+    /// Gathers four vectors into lanes.
     #[inline(always)]
     pub fn new([a, b, c, d]: [&Vec3; 4]) -> Self {
         Self {
@@ -51,21 +52,23 @@ impl Vec3x4 {
         }
     }
 
-    /// The first vector.
+    /// The vector of lane 0.
     #[inline(always)]
     pub fn first(self) -> Vec3 {
         Vec3::new(self.x.x, self.y.x, self.z.x)
     }
 
-    /// The vectors one by one, each with its element of `w` behind it.
+    /// The transpose: lane i's (x, y, z), followed by element i of `w`.
     #[inline(always)]
     pub fn rows(self, w: Vec4) -> [Vec4; 4] {
         let Mat4 { x_axis, y_axis, z_axis, w_axis } =
             Mat4::from_cols(self.x, self.y, self.z, w).transpose();
-        // Out of sight of the optimiser, which would take them apart and store number by number.
+        // `black_box` keeps the rows whole; otherwise the optimiser splits them and stores each
+        // number by itself.
         black_box([x_axis, y_axis, z_axis, w_axis])
     }
 
+    /// Per lane: `if_true` where the mask is set, otherwise `if_false`.
     #[inline(always)]
     pub fn select(mask: BVec4A, if_true: Self, if_false: Self) -> Self {
         Self {
@@ -137,7 +140,7 @@ impl Neg for Vec3x4 {
     }
 }
 
-/// Four of [`Frame`](super::Frame).
+/// Four lanes of [`Frame`](super::Frame).
 #[derive(Clone, Copy)]
 pub struct Framex4 {
     s: Vec3x4,
@@ -146,6 +149,7 @@ pub struct Framex4 {
 }
 
 impl Framex4 {
+    /// Four lanes of [`Frame::from_normal`](super::Frame::from_normal).
     #[inline(always)]
     pub fn from_normals(n: Vec3x4) -> Self {
         let sign = Vec4::ONE.copysign(n.z);
@@ -158,13 +162,14 @@ impl Framex4 {
         }
     }
 
+    /// Four lanes of [`Frame::to_world`](super::Frame::to_world).
     #[inline(always)]
     pub fn to_world(self, v: Vec3x4) -> Vec3x4 {
         self.s * v.x + self.t * v.y + self.n * v.z
     }
 }
 
-/// Four of [`BoundedPoint`](super::BoundedPoint).
+/// Four lanes of [`BoundedPoint`](super::BoundedPoint).
 #[derive(Clone, Copy)]
 pub struct BoundedPointx4 {
     pub p: Vec3x4,
@@ -172,6 +177,7 @@ pub struct BoundedPointx4 {
 }
 
 impl BoundedPointx4 {
+    /// Four lanes of [`BoundedPoint::on_triangle`](super::BoundedPoint::on_triangle).
     #[inline(always)]
     pub fn on_triangles(corners: [Vec3x4; 3], b: [Vec4; 3]) -> Self {
         let [p0, p1, p2] = corners;
@@ -180,6 +186,7 @@ impl BoundedPointx4 {
         Self { p: w0 + w1 + w2, error }
     }
 
+    /// Four lanes of [`BoundedPoint::ray_origin`](super::BoundedPoint::ray_origin).
     #[inline(always)]
     pub fn ray_origins(&self, n: Vec3x4, w: Vec3x4) -> Vec3x4 {
         let distance = n.abs().dot(self.error);
@@ -193,13 +200,15 @@ impl BoundedPointx4 {
     }
 }
 
-/// The next floats after those of `values`, which are finite, in the direction of the sign of `offsets`.
+/// Per lane, the float next to `values` in the direction of the sign of `offsets`; unchanged for an
+/// offset of zero. The values must be finite.
 #[inline(always)]
 fn round_away(values: Vec4, offsets: Vec4) -> Vec4 {
     let (values, offsets) = (values.to_array(), offsets.to_array());
     Vec4::from_array(four(|i| {
         let (value, offset) = (values[i].to_bits() as i32, offsets[i].to_bits() as i32);
-        // Both signs as 0 or -1, so that a step away from zero is one up in bits.
+        // The sign bits as 0 or -1. If they agree the step leads away from zero, which adds one to
+        // the bits of a float; otherwise it subtracts one.
         let step = ((value >> 31) ^ (offset >> 31)) | 1;
         let tiny = (offset & i32::MIN) | 1;
         let next = if value & i32::MAX == 0 { tiny } else { value.wrapping_add(step) };
@@ -207,21 +216,7 @@ fn round_away(values: Vec4, offsets: Vec4) -> Vec4 {
     }))
 }
 
-/// Four times [`triangle_normal`](crate::shape::triangle_normal), and whether that was possible: whether none
-/// of them needs more than f32.
-#[inline(always)]
-pub fn triangle_normals([p0, p1, p2]: [Vec3x4; 3]) -> (Vec3x4, bool) {
-    let (e1, e2) = (p1 - p0, p2 - p0);
-    let n = e1.cross(e2);
-    let length2 = n.length_squared();
-    let least = Vec4::splat(0.01) * e1.length_squared() * e2.length_squared();
-    let sound = length2.cmpgt(least)
-        & length2.cmpgt(Vec4::splat(f32::MIN_POSITIVE / f32::EPSILON))
-        & length2.cmplt(Vec4::INFINITY);
-    (n.divided_by(length2.sqrt()), sound.all())
-}
-
-/// Rays from `o` along `d`, from t = 0 to `t_max`.
+/// Four rays from `o` along `d`, from t = 0 to `t_max`.
 #[inline(always)]
 pub fn rays_x4(o: Vec3x4, d: Vec3x4, t_max: Vec4) -> [Ray; 4] {
     let (o, d) = (o.rows(Vec4::ZERO), d.rows(t_max));

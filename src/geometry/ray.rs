@@ -1,21 +1,34 @@
-//! [`Ray`].
+//! [`Ray`]: a half line or a segment.
 
 use glam::Vec3;
 
-/// A half line, or a piece of one: the points `o + t d` for t in `[t_min, t_max]`.
+/// A half line or a segment: the points `o + t d` for t in `[t_min, t_max]`.
 ///
-/// `d` need not be of unit length: t is measured in its length, so that a shadow ray may run
-/// from t = 0 at the surface to t = 1 at the light.
+/// `d` need not have unit length: t is measured in lengths of `d`. So a shadow ray may run from t =
+/// 0 at the surface to t = 1 at the light.
+///
+/// ```
+/// use lobe::geometry::Ray;
+/// use lobe::glam::{Vec3, vec3};
+///
+/// let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+/// assert_eq!((ray.t_min, ray.t_max), (0.0, f32::INFINITY));
+///
+/// // From a surface to a light: t is the fraction of the distance.
+/// let shadow = Ray::between(Vec3::ZERO, vec3(0.0, 0.0, 8.0));
+/// assert_eq!(shadow.o + 0.5 * shadow.d, vec3(0.0, 0.0, 4.0));
+/// assert!(shadow.t_max < 1.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Ray {
-    /// Origin.
+    /// Origin, in scene units.
     pub o: Vec3,
-    /// Where the ray begins to count, at least 0.
+    /// Least t of a hit, at least 0.
     pub t_min: f32,
-    /// Direction, of any length but zero.
+    /// Direction, of any non-zero length.
     pub d: Vec3,
-    /// Where the ray ends; infinite for a half line.
+    /// Greatest t of a hit; infinite for a half line.
     pub t_max: f32,
 }
 
@@ -26,7 +39,8 @@ impl Ray {
         Self { o, t_min: 0.0, d, t_max: f32::INFINITY }
     }
 
-    /// The open segment from `o` to `p`: t = 1 stands for `p`, which itself is left out.
+    /// The segment from `o` to `p`, without `p` itself: t = 1 would be `p`, and `t_max` is the
+    /// float below.
     #[inline]
     pub fn between(o: Vec3, p: Vec3) -> Self {
         Self { o, t_min: 0.0, d: p - o, t_max: super::float::ONE_MINUS_EPSILON }

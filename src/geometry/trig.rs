@@ -1,14 +1,14 @@
-//! Trigonometry in shading coordinates, where the normal is the z axis.
+//! Trigonometric functions of directions in shading coordinates, where the normal is the z axis.
 //!
-//! For a unit vector w with spherical coordinates (θ, φ): w = (sin θ cos φ, sin θ sin φ, cos θ), so
-//! every function here is read off its components (PBRT 3rd edition, section 8.0.1). sin² θ is taken
-//! as x² + y², which unlike 1 - z² keeps its digits close to the normal.
+//! A unit vector w with spherical coordinates (θ, φ) is w = (sin θ cos φ, sin θ sin φ, cos θ), so
+//! each function follows from its components (PBRT 3rd edition, section 8.0.1). sin² θ is computed
+//! as x² + y², which unlike 1 - z² keeps its precision near the normal.
 //!
-//! Where φ is undefined, at the poles, it is taken to be 0.
+//! At the poles φ is undefined; it is taken to be 0.
 
 use glam::Vec3;
 
-/// cos θ, negative below the surface.
+/// cos θ; negative below the surface.
 #[inline]
 pub fn cos_theta(w: Vec3) -> f32 {
     w.z
@@ -36,17 +36,17 @@ pub fn sin2_theta(w: Vec3) -> f32 {
 #[inline]
 pub fn sin_theta(w: Vec3) -> f32 {
     let sin2 = sin2_theta(w);
-    // Squares this small lose digits, and then vanish.
+    // Squares below about 1e-30 lose digits or underflow to zero.
     if sin2 > 1e-30 { sin2.sqrt() } else { w.x.hypot(w.y) }
 }
 
-/// tan θ, negative below the surface and infinite along it.
+/// tan θ; negative below the surface, infinite at the horizon.
 #[inline]
 pub fn tan_theta(w: Vec3) -> f32 {
     sin_theta(w) / cos_theta(w)
 }
 
-/// tan² θ, infinite along the surface.
+/// tan² θ; infinite at the horizon.
 #[inline]
 pub fn tan2_theta(w: Vec3) -> f32 {
     sin2_theta(w) / cos2_theta(w)
@@ -78,19 +78,19 @@ pub fn sin2_phi(w: Vec3) -> f32 {
     sin_phi(w) * sin_phi(w)
 }
 
-/// cos of the angle Δφ between two directions seen from above: with z set to zero in both, the
-/// cosine that their dot product gives. 1 when one of them is the pole.
+/// cos Δφ, the cosine of the difference in azimuth of two directions: that of the angle between
+/// their projections onto the surface. 1 if either is a pole.
 #[inline]
 pub fn cos_d_phi(wa: Vec3, wb: Vec3) -> f32 {
-    // The roots are taken apart: the product of two squares can underflow.
+    // A product of two roots, not the root of a product: the product of the squares can underflow.
     let lengths = sin_theta(wa) * sin_theta(wb);
     if lengths == 0.0 { 1.0 } else { ((wa.x * wb.x + wa.y * wb.y) / lengths).clamp(-1.0, 1.0) }
 }
 
-/// Whether both directions lie on the same side of the surface. A direction along the surface is
-/// on neither side.
+/// Whether both directions lie on the same side of the surface. A direction at the horizon, z = 0,
+/// is on neither side.
 #[inline]
 pub fn same_hemisphere(wa: Vec3, wb: Vec3) -> bool {
-    // Signs are compared, not multiplied: two tiny cosines have a product of zero.
+    // Signs are compared, because the product of two tiny cosines underflows to zero.
     (wa.z > 0.0 && wb.z > 0.0) || (wa.z < 0.0 && wb.z < 0.0)
 }

@@ -1,11 +1,11 @@
-//! Vectors of any length.
+//! Normalisation of vectors of any length.
 
 use glam::Vec3;
 
-/// `v` at unit length; `None` when it has no direction: zero, infinite or not a number.
+/// `v` scaled to unit length. `None` if `v` is zero or not finite.
 ///
-/// The square of a length leaves the range of f32 for lengths below 1e-19 and above 1e19, and loses
-/// digits on the way: such vectors are scaled first.
+/// The squared length of vectors shorter than 1e-19 or longer than 1e19 under- or overflows f32,
+/// and loses precision before that. Such vectors are scaled before they are normalised.
 #[inline]
 pub fn unit(v: Vec3) -> Option<Vec3> {
     let length2 = v.length_squared();
@@ -20,7 +20,8 @@ pub fn unit(v: Vec3) -> Option<Vec3> {
     Some(v / v.length())
 }
 
-/// The unit vector along `a` × `b`; `None` when they do not span a plane. Their lengths do not matter.
+/// The unit vector along `a` × `b`, for vectors of any length. `None` if they are parallel, zero or
+/// not finite.
 #[inline]
 pub fn unit_cross(a: Vec3, b: Vec3) -> Option<Vec3> {
     unit(unit(a)?.cross(unit(b)?))

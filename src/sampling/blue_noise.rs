@@ -1,4 +1,4 @@
-//! [`BlueNoiseSampler`]: error that differs from pixel to pixel as blue noise.
+//! [`BlueNoiseSampler`]: Sobol points whose error is blue noise in screen space.
 
 use glam::{UVec2, Vec2};
 
@@ -6,33 +6,37 @@ use super::hash::{hash, mix};
 use super::sobol::couple;
 use super::{SampleId, Sampler, SobolSampler};
 
-/// Sobol points dealt out over the whole image, so that what one pixel has too much of its neighbours lack: the
-/// error looks finer than that of other samplers and vanishes when the image is seen from afar.
+/// Sobol points distributed over the whole image, so that the errors of neighbouring pixels tend to
+/// cancel: error is blue noise in screen space. It looks finer than that of other samplers, and
+/// disappears when the image is seen from a distance.
 ///
-/// Samples of one pixel know of each other, and so do pixels: errors of neighbours are not independent. An error
-/// that is told from sets of samples ([`SampleId::set`]) stays right for each pixel, but a sum over pixels varies
-/// less than their errors say.
+/// Samples are correlated within a set, and between pixels too. A variance estimated from sets of
+/// samples ([`SampleId::set`]) is right for each pixel, but the error of a sum over pixels is
+/// smaller than the pixels' variances suggest.
 ///
-/// Sets have a power of two of samples; samples beyond begin another, independent one. Pixels share one sequence as
-/// long as it is not longer than 2³² samples. Larger images are cut into squares that know nothing of each other,
-/// which takes 65,536 pixels in a row with one sample per pixel, and 2048 with 1024.
+/// A set has a power of two of samples; further samples begin another, independent set. Pixels
+/// share one sequence of at most 2³² samples. A larger image is cut into independent squares, whose
+/// side is 65,536 pixels at one sample per pixel, and 2048 at 1024.
 ///
-/// Ahmed and Wonka 2020, "[Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering
-/// of Pixels](https://doi.org/10.1145/3414685.3417881)", section 4: pixels stand in Morton order, and in each couple
-/// of dimensions the quarters of each square are dealt out in another order. Dimensions are as in [`SobolSampler`].
+/// Ahmed and Wonka 2020, "[Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via
+/// Hierarchical Ordering of Pixels](https://doi.org/10.1145/3414685.3417881)", section 4: pixels
+/// take consecutive stretches of the sequence in Morton order. At each level of that order the four
+/// quadrants are permuted at random, differently for each couple of dimensions. Dimensions are
+/// those of [`SobolSampler`].
 #[derive(Clone, Copy, Debug)]
 pub struct BlueNoiseSampler {
     sobol: SobolSampler,
     order_seed: u64,
-    /// Binary logarithm of the samples in a set.
+    /// Binary logarithm of the number of samples in a set.
     set_bits: u32,
-    /// Binary logarithm of the side of the square of pixels that share a sequence.
+    /// Binary logarithm of the side, in pixels, of the square that shares a sequence.
     side_bits: u32,
 }
 
 impl BlueNoiseSampler {
-    /// A sampler for images of this many columns and rows and for sets of `samples_per_set` samples, at least 1,
-    /// rounded up to a power of two, at most 2³¹; each seed gives another image.
+    /// A sampler for images of `resolution` columns and rows and sets of `samples_per_set` samples:
+    /// at least 1, rounded up to a power of two, at most 2³¹. Different seeds give different
+    /// images.
     pub fn new(resolution: UVec2, samples_per_set: u32, seed: u64) -> Self {
         let bits = |n: u32| n.max(1).saturating_sub(1).checked_ilog2().map_or(0, |log| log + 1);
         let set_bits = bits(samples_per_set).min(31);
@@ -41,7 +45,8 @@ impl BlueNoiseSampler {
         Self { sobol: SobolSampler::new(seed), order_seed, set_bits, side_bits }
     }
 
-    /// The name of a square and set of samples, as if it were one pixel's, with index 0.
+    /// The key of the square and set that `id` belongs to: the id that [`SobolSampler`] would be
+    /// given for a pixel, with index 0.
     #[inline]
     fn square(&self, id: SampleId) -> SampleId {
         let pixel = UVec2::new(id.pixel.x >> self.side_bits, id.pixel.y >> self.side_bits);
@@ -52,7 +57,8 @@ impl BlueNoiseSampler {
         SampleId { pixel, set, index: 0 }
     }
 
-    /// The square's sample that belongs to the first of the pixel's.
+    /// The index in the square's sequence of the first sample of `id`'s pixel: its Morton code,
+    /// with the quadrants of each level permuted.
     #[inline]
     fn first_index(&self, id: SampleId, square: SampleId, dimension: u32) -> u32 {
         let order = hash(self.order_seed, square, couple(dimension).0);
@@ -66,31 +72,39 @@ impl BlueNoiseSampler {
         index << self.set_bits
     }
 
-    /// The sample of the sequence that stands for this one.
+    /// The id under which the sample is found in the square's sequence.
     #[inline]
-    fn place(&self, id: SampleId, dimension: u32) -> SampleId {
+    fn in_sequence(&self, id: SampleId, dimension: u32) -> SampleId {
         let square = self.square(id);
-        SampleId { index: self.first_index(id, square, dimension) | self.within(id), ..square }
+        SampleId {
+            index: self.first_index(id, square, dimension) | self.index_in_set(id),
+            ..square
+        }
     }
 
-    /// The sample's place in its set.
+    /// The index of the sample within its set.
     #[inline]
-    fn within(&self, id: SampleId) -> u32 {
+    fn index_in_set(&self, id: SampleId) -> u32 {
         id.index & ((1 << self.set_bits) - 1)
     }
 
-    /// The samples of the sequence that stand for these; the pixel's part is found once as long as it stays.
+    /// [`Self::in_sequence`] of each id. The pixel's part is computed once per run of samples in
+    /// the same set.
     #[inline]
-    fn places(&self, ids: &[SampleId], dimension: u32) -> impl ExactSizeIterator<Item = SampleId> {
-        let mut at_hand: Option<(SampleId, SampleId)> = None;
+    fn all_in_sequence(
+        &self,
+        ids: &[SampleId],
+        dimension: u32,
+    ) -> impl ExactSizeIterator<Item = SampleId> {
+        let mut cached: Option<(SampleId, SampleId)> = None;
         ids.iter().map(move |&id| {
             let first = SampleId { index: id.index >> self.set_bits << self.set_bits, ..id };
-            let place = match at_hand {
-                Some((of, place)) if of == first => place,
-                _ => self.place(first, dimension),
+            let first_there = match cached {
+                Some((of, first_there)) if of == first => first_there,
+                _ => self.in_sequence(first, dimension),
             };
-            at_hand = Some((first, place));
-            SampleId { index: place.index | self.within(id), ..place }
+            cached = Some((first, first_there));
+            SampleId { index: first_there.index | self.index_in_set(id), ..first_there }
         })
     }
 }
@@ -102,24 +116,24 @@ impl Sampler for BlueNoiseSampler {
 
     #[inline]
     fn get_1d(&self, id: SampleId, dimension: u32) -> f32 {
-        self.sobol.get_1d(self.place(id, dimension), dimension)
+        self.sobol.get_1d(self.in_sequence(id, dimension), dimension)
     }
 
     #[inline]
     fn get_2d(&self, id: SampleId, dimension: u32) -> Vec2 {
-        self.sobol.get_2d(self.place(id, dimension), dimension)
+        self.sobol.get_2d(self.in_sequence(id, dimension), dimension)
     }
 
     fn fill_1d(&self, ids: &[SampleId], dimension: u32, values: &mut Vec<f32>) {
-        self.sobol.fill_1d_of(self.places(ids, dimension), dimension, values);
+        self.sobol.fill_1d_of(self.all_in_sequence(ids, dimension), dimension, values);
     }
 
     fn fill_2d(&self, ids: &[SampleId], dimension: u32, points: &mut Vec<Vec2>) {
-        self.sobol.fill_2d_of(self.places(ids, dimension), dimension, points);
+        self.sobol.fill_2d_of(self.all_in_sequence(ids, dimension), dimension, points);
     }
 }
 
-/// All orders of four things, two bits for each.
+/// All permutations of four elements, two bits for each.
 const ORDERS: [u32; 24] = {
     let mut orders = [0; 24];
     let (mut count, mut order) = (0, 0);

@@ -1,15 +1,16 @@
-//! [`Discrete`]: one of many, by weight.
+//! [`Discrete`]: a discrete distribution over indices.
 
 use crate::geometry::float::ONE_MINUS_EPSILON;
 
-/// A choice among numbered things, each with a probability in proportion to its weight.
+/// A discrete distribution: index i has a probability in proportion to its weight.
 ///
-/// The sums of the weights are searched within one of as many equal buckets as there are weights
-/// (Chen and Asau 1974, "On Generating Random Variates from an Empirical Distribution"), so that a choice
-/// takes O(1) on average, and neighbouring random numbers choose neighbours: strata stay strata.
+/// Sampling inverts the cumulative distribution. The search starts in one of as many equal buckets
+/// as there are weights (Chen and Asau 1974, "On Generating Random Variates from an Empirical
+/// Distribution"), so it takes O(1) on average. Unlike an alias table it is monotonic: stratified u
+/// give stratified indices.
 ///
-/// A random number has 24 bits. What is chosen with a probability below 2⁻²⁴ may never be, and what is left
-/// of the number after a choice among n has log₂ n bits less.
+/// u has 24 bits of resolution. An index with a probability below 2⁻²⁴ may never be drawn, and the
+/// remapped u after a choice among n has log₂ n bits less.
 ///
 /// ```
 /// use lobe::sampling::Discrete;
@@ -20,15 +21,16 @@ use crate::geometry::float::ONE_MINUS_EPSILON;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Discrete {
-    /// Where the share of each begins in `[0, 1]`, and 1.
+    /// The cumulative distribution: where the share of each index begins in `[0, 1]`, and a final
+    /// 1.
     starts: Box<[f64]>,
-    /// How many shares end before each bucket.
+    /// For each bucket, the number of shares that end in an earlier one.
     ended: Box<[u32]>,
 }
 
 impl Discrete {
-    /// A choice by these weights. A weight below zero or NaN counts as zero. `None` when nothing has a
-    /// weight, or the sum is infinite.
+    /// The distribution with these weights. A weight that is negative or NaN counts as zero. `None`
+    /// if the sum of the weights is zero or infinite.
     ///
     /// # Panics
     /// If there are 2³² weights or more.
@@ -56,32 +58,33 @@ impl Discrete {
         Some(Self { starts: starts.into(), ended })
     }
 
-    /// What u in `[0, 1)` chooses, its probability, above 0, and u's place within its share, which is
-    /// again uniform in `[0, 1)`.
+    /// The index that u in `[0, 1)` selects, its probability, above 0, and u remapped to its
+    /// position within the index's share, which is again uniform in `[0, 1)`.
     #[inline]
     pub fn sample(&self, u: f32) -> (usize, f32, f32) {
         let u = f64::from(u);
         let bucket = bucket(u, self.ended.len() - 1);
         let (from, to) = (self.ended[bucket] as usize, self.ended[bucket + 1] as usize);
-        // Those before end in an earlier bucket, at or below u; the one after ends in a later one.
+        // Binary search among the shares that end in this bucket. Shares before `from` end in an
+        // earlier bucket, at or below u; share `to` ends in a later one, above u.
         let index = from + self.starts[from + 1..=to].partition_point(|&end| end <= u);
         let (start, end) = (self.starts[index], self.starts[index + 1]);
         let rest = ((u - start) / (end - start)) as f32;
         (index, (end - start) as f32, rest.min(ONE_MINUS_EPSILON))
     }
 
-    /// The probability of one of them.
+    /// The probability of `index`.
     ///
     /// # Panics
-    /// If there is none with this index.
+    /// If `index` is out of range.
     #[inline]
     pub fn probability(&self, index: usize) -> f32 {
         (self.starts[index + 1] - self.starts[index]) as f32
     }
 }
 
-/// Which of `count` equal parts of `[0, 1]` holds `u`; `count` for 1. It never falls as u grows, whatever
-/// is rounded.
+/// The bucket that holds `u`, of `count` equal ones over `[0, 1]`; `count` for u = 1. Monotonic in
+/// u in spite of rounding.
 #[inline]
 fn bucket(u: f64, count: usize) -> usize {
     (u * count as f64) as usize

@@ -1,34 +1,37 @@
-//! Integer hashing: where random numbers come from.
+//! Counter-based random numbers: integer hashes of a sample's id and dimension.
 
-use super::SampleId;
+use super::sampler::SampleId;
 
-/// A well-mixed 64-bit number for every (seed, pixel, set, index, dimension).
+/// 64 pseudorandom bits for each (seed, pixel, set, index, dimension).
 ///
-/// Each word is folded in by one round of [`mix`], so that no two of them can cancel. The round of the
-/// seed is the caller's, who has to do it only once: `mixed_seed` is [`mix`] of a seed. Without it, the
-/// pixels of one seed would be those of the next in another order.
+/// Each word is folded in by a round of [`mix`], so that no two words can cancel. The caller does
+/// the round of the seed, once: `mixed_seed` is [`mix`] of the seed. Without that round, the pixels
+/// of one seed would be a permutation of those of the next.
 #[inline]
 pub fn hash(mixed_seed: u64, id: SampleId, dimension: u32) -> u64 {
     hash_in_set(hash_set(mixed_seed, id), id.index, dimension)
 }
 
-/// The part of [`hash`] that all samples of a set share.
+/// The part of [`hash`] that is common to a set of samples.
 #[inline]
 pub fn hash_set(mixed_seed: u64, id: SampleId) -> u64 {
     let pixel = mix(mixed_seed ^ (u64::from(id.pixel.x) << 32 | u64::from(id.pixel.y)));
-    // Most pixels have one set: it costs no round.
+    // Set 0 saves a round: most pixels have no other.
     if id.set == 0 { pixel } else { mix(pixel ^ u64::from(id.set)) }
 }
 
-/// The rest of [`hash`].
+/// The part of [`hash`] that is particular to a sample and dimension. `set` comes from
+/// [`hash_set`].
 #[inline]
 pub fn hash_in_set(set: u64, index: u32, dimension: u32) -> u64 {
     mix(set.wrapping_add(u64::from(index) << 32 | u64::from(dimension)))
 }
 
-/// A bijection of 64-bit numbers that changes each output bit with probability 1/2 for every changed
-/// input bit: the finaliser of Steele et al. 2014, "Fast Splittable Pseudorandom Number Generators"
-/// (SplitMix64, with the constants of Stafford's mix 13), after its additive step.
+/// A 64-bit finaliser: a bijection in which each changed input bit flips each output bit with
+/// probability 1/2.
+///
+/// SplitMix64 with its additive step and the constants of Stafford's mix 13 (Steele et al. 2014,
+/// "Fast Splittable Pseudorandom Number Generators").
 #[inline]
 pub fn mix(word: u64) -> u64 {
     let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
@@ -39,21 +42,22 @@ pub fn mix(word: u64) -> u64 {
 
 /// The upper 24 bits of `bits` as a multiple of 2⁻²⁴ in `[0, 1)`.
 ///
-/// 24 bits are what a float below 1 can hold: with more, rounding would give 1.
+/// An f32 below 1 holds no more: with more bits, rounding would give 1.
 #[inline]
 pub fn unit_float(bits: u32) -> f32 {
     (bits >> 8) as f32 * (1.0 / (1 << 24) as f32)
 }
 
-/// Element `i` of a random permutation of `0..length` that `key` chooses, for i < length.
+/// Element `i` of a pseudorandom permutation of `0..length`, selected by `key`, for i < length.
 ///
-/// No table, so no state: rounds of keyed add, multiply and shift permute the next power of two, and
-/// an element that falls outside of the range is sent on until it lands inside (cycle walking; the
-/// idea is section 3 of Kensler 2013, "Correlated Multi-Jittered Sampling"). A last rotation makes
-/// every place equally likely for every element.
+/// It is computed without a table. Rounds of keyed addition, multiplication and shift permute the
+/// next power of two. A result out of range is permuted again until it is in range (cycle walking;
+/// Kensler 2013, "Correlated Multi-Jittered Sampling", section 3). A final rotation makes the
+/// position of each element uniform.
 ///
-/// The number of rounds is what it takes until pairs of places are uniform too, to 0.5 %: each round
-/// halves what is left of their bias on the shortest lengths, and takes more off on longer ones.
+/// With this number of rounds, the positions of pairs of elements are uniform too, within 0.5 %.
+/// Each round halves the remaining bias at the shortest lengths, and reduces it more at longer
+/// ones.
 #[inline]
 pub fn permute(i: u32, length: u32, key: u64) -> u32 {
     let mask = u32::MAX.checked_shr((length - 1).leading_zeros()).unwrap_or(0);
@@ -67,8 +71,9 @@ pub fn permute(i: u32, length: u32, key: u64) -> u32 {
             let factor = (round_key >> 32) as u32 | 1;
             i = i.wrapping_add(round_key as u32).wrapping_mul(factor) & mask;
             i ^= i >> half;
-            // A multiplicative congruential step (multiplier of Steele and Vigna 2021), with its
-            // strong upper bits brought down to where short lengths look.
+            // A step of a multiplicative congruential generator (multiplier of Steele and Vigna
+            // 2021). The rotation moves its strong upper bits down to where short lengths read
+            // them.
             round_key = round_key.wrapping_mul(0xd134_2543_de82_ef95).rotate_left(29) ^ rotation;
         }
         if i < length {

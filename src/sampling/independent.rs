@@ -1,23 +1,23 @@
-//! [`IndependentSampler`]: uniform random numbers.
+//! [`IndependentSampler`]: independent uniform random numbers.
 
 use glam::Vec2;
 
 use super::hash::{hash, hash_in_set, hash_set, mix, unit_float};
 use super::{SampleId, Sampler};
 
-/// Uniform random numbers that know nothing of each other. Error falls with 1/√n.
+/// Independent uniform random numbers. The standard error of n samples falls as 1/√n.
 #[derive(Clone, Copy, Debug)]
 pub struct IndependentSampler {
     mixed_seed: u64,
 }
 
 impl IndependentSampler {
-    /// Each seed gives another image.
+    /// Different seeds give different images.
     pub fn new(seed: u64) -> Self {
         Self { mixed_seed: mix(seed) }
     }
 
-    /// Calls `each` for the samples of each set in a row, with what they share of the hash.
+    /// Calls `each` for each run of samples in the same set, with the set's part of the hash.
     #[inline]
     fn for_sets(&self, ids: &[SampleId], mut each: impl FnMut(u64, &[SampleId])) {
         for of_set in SampleId::sets(ids) {
@@ -33,7 +33,7 @@ impl Sampler for IndependentSampler {
 
     #[inline]
     fn get_1d(&self, id: SampleId, dimension: u32) -> f32 {
-        number(hash(self.mixed_seed, id, dimension))
+        value(hash(self.mixed_seed, id, dimension))
     }
 
     #[inline]
@@ -44,7 +44,7 @@ impl Sampler for IndependentSampler {
     fn fill_1d(&self, ids: &[SampleId], dimension: u32, values: &mut Vec<f32>) {
         values.clear();
         self.for_sets(ids, |set, of_set| {
-            values.extend(of_set.iter().map(|id| number(hash_in_set(set, id.index, dimension))));
+            values.extend(of_set.iter().map(|id| value(hash_in_set(set, id.index, dimension))));
         });
     }
 
@@ -57,7 +57,7 @@ impl Sampler for IndependentSampler {
 }
 
 #[inline]
-fn number(bits: u64) -> f32 {
+fn value(bits: u64) -> f32 {
     unit_float((bits >> 32) as u32)
 }
 

@@ -1,4 +1,31 @@
-//! Sampling: warps from the unit square to other domains, and the samplers that fill the square.
+//! Sampling: samplers, which supply points of the unit square; warps, which take these to other
+//! domains; and discrete distributions.
+//!
+//! - A [`Sampler`] gives each use of random numbers along a path, called a dimension, a value in
+//!   `[0, 1)` or a point in `[0, 1)²`: [`IndependentSampler`], [`StratifiedSampler`],
+//!   [`SobolSampler`], [`BlueNoiseSampler`].
+//! - A warp takes such a point to a disk, sphere, cone or shape. Each has `sample`, `pdf` and
+//!   `inverse`.
+//! - [`Discrete`] draws an index by weight.
+//!
+//! An estimate of an integral is the mean of f / pdf over samples. For example the irradiance of a
+//! surface under a sky of radiance cos θ, ∫ cos² θ dω = 2π/3:
+//!
+//! ```
+//! use lobe::glam::UVec2;
+//! use lobe::sampling::{SampleId, Sampler, SobolSampler, cosine_hemisphere};
+//!
+//! let sampler = SobolSampler::new(0);
+//! let n = 256;
+//! let sum: f32 = (0..n)
+//!     .map(|index| {
+//!         let u = sampler.get_2d(SampleId { pixel: UVec2::ZERO, set: 0, index }, 0);
+//!         let cos = cosine_hemisphere::sample(u).z;
+//!         cos * cos / cosine_hemisphere::pdf(cos)
+//!     })
+//!     .sum();
+//! assert!((sum / n as f32 - 2.0 / 3.0 * std::f32::consts::PI).abs() < 1e-2);
+//! ```
 
 mod blue_noise;
 mod discrete;

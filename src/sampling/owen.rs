@@ -1,19 +1,23 @@
-//! Owen scrambling by hashing: random permutations that keep binary nets.
+//! Owen scrambling and shuffling by hashing.
 //!
-//! A nested uniform scramble (Owen 1995) flips each binary digit of a number by a coin that depends on the digits
-//! above it. Where a multiplication carries upwards, all bits depend on those below, so the hash works on numbers
-//! whose bits stand in reverse: bit 0 is the first digit behind the point (Burley 2020, "Practical Hash-based Owen
-//! Scrambling", section 3).
+//! A nested uniform scramble (Owen 1995) flips each binary digit of a number by a random bit that
+//! depends on all digits above it. It is a random permutation that keeps binary (t, s)-nets.
+//!
+//! In a multiplication, carries run upwards: each bit depends on those below. So the hash works on
+//! bit-reversed numbers, where bit 0 is the first binary digit after the point (Burley 2020,
+//! "Practical Hash-based Owen Scrambling", section 3).
 
 use super::hash::unit_float;
 
-/// Scrambles a number whose bits stand in reverse; every seed gives another scramble. What comes out stands in
-/// reverse too.
+/// Nested uniform scramble of a bit-reversed number; the result is bit-reversed too. Each seed
+/// gives another scramble.
 ///
-/// The upper half of each word counts for nothing and holds nothing of use: where two words of 64 bits go through
-/// together, the oldest of vector units can multiply them. The seed's lower half should be well mixed.
+/// Only the lower 32 bits of each word are used, and the upper 32 bits of the result are
+/// meaningless. 64-bit words let SSE2 multiply two of them at a time. The lower half of the seed
+/// should be well mixed.
 ///
-/// The steps and constants are those of Vegdahl 2021, "Building a Better LK Hash", final hash.
+/// The steps and constants are those of the final hash in Vegdahl 2021, "Building a Better LK
+/// Hash".
 #[inline]
 pub fn scramble(reversed: u64, seed: u64) -> u64 {
     let times = |a: u64, b: u64| u64::from(a as u32) * u64::from(b as u32);
@@ -24,32 +28,33 @@ pub fn scramble(reversed: u64, seed: u64) -> u64 {
     x ^ times(x, 0x53a2_2864)
 }
 
-/// The number in `[0, 1)` whose bits stand in reverse.
+/// The number in `[0, 1)` with these bit-reversed digits.
 #[inline]
 pub fn unit_float_reversed(bits: u32) -> f32 {
     unit_float(bits.reverse_bits())
 }
 
-/// How many samples share what [`shuffle_block`] has to compute.
+/// Samples in a block: the unit for which [`shuffle_block`] is computed once.
 pub const BLOCK: u32 = 16;
 
-/// Where the aligned block of [`BLOCK`] indices with `index` begins after a nested uniform scramble of all indices,
-/// which keeps aligned blocks of any power of two together.
+/// The first index of the block that `index`'s block is moved to, by a nested uniform scramble of
+/// all indices. Such a scramble maps aligned runs of any power of two to aligned runs.
 #[inline]
 pub fn shuffle_block(index: u32, seed: u32) -> u32 {
     let reversed = (index & !(BLOCK - 1)).reverse_bits();
     (scramble(reversed.into(), seed.into()) as u32).reverse_bits() & !(BLOCK - 1)
 }
 
-/// The place that `index` has within its block, by 15 coins: one for the first of the four digits, two for the
-/// second, by the first, and so on.
+/// The position of `index` within its shuffled block: a nested uniform scramble of its four binary
+/// digits. It takes 15 random bits (`coins`): one for the first digit, two for the second,
+/// depending on the first, and so on.
 #[inline]
 pub fn shuffle_within_block(index: u32, coins: u32) -> usize {
-    let place = index & (BLOCK - 1);
+    let position = index & (BLOCK - 1);
     let coin = |number: u32| coins >> number & 1;
     let flips = coin(0) << 3
-        | coin(1 + (place >> 3)) << 2
-        | coin(3 + (place >> 2)) << 1
-        | coin(7 + (place >> 1));
-    (place ^ flips) as usize
+        | coin(1 + (position >> 3)) << 2
+        | coin(3 + (position >> 2)) << 1
+        | coin(7 + (position >> 1));
+    (position ^ flips) as usize
 }

@@ -1,18 +1,23 @@
-//! A sequence of points in four dimensions that is a net in base 4, and in base 2 in each of its two pairs.
+//! A digital (0, 4)-sequence in base 4 whose coordinate pairs (0, 1) and (2, 3) are (0,
+//! 2)-sequences in base 2.
 //!
-//! Coordinates c = 0, 1, 2, 3 belong to the elements 0, 1, w, w² of the field of four elements: Faure's
-//! construction of a (0, 4)-sequence (Faure 1982, for fields Niederreiter 1987) with the powers of Pascal's matrix
-//! as generators. Digits of base 4 are pairs of bits. With the sum of its two bits for the first bit of each digit
-//! of coordinates 1 and 3, coordinates (0, 1), which then are Sobol's first two, and (2, 3) are (0, 2)-sequences in
-//! base 2: Ahmed 2024, "SZ Sequences: Binary-Constructed (0, 2^q)-Sequences", has the general case.
+//! Faure's construction (Faure 1982; for prime powers Niederreiter 1987): coordinates c = 0, 1, 2,
+//! 3 belong to the elements 0, 1, w, w² of the field of four elements, and their generator matrices
+//! are powers of Pascal's matrix. A digit of base 4 is a pair of bits. In coordinates 1 and 3 the
+//! first bit of each digit is replaced by the sum of its two bits. This makes both pairs (0,
+//! 2)-sequences in base 2, the first of them Sobol's first two dimensions. Ahmed 2024, "SZ
+//! Sequences: Binary-Constructed (0, 2^q)-Sequences", has the general case.
 //!
-//! A binomial coefficient is odd where the bits of one number hold those of the other (Lucas), so a power of
-//! Pascal's matrix is a product of one step for each bit of the digits' numbers, and no table is needed.
-//! All numbers stand in reverse: bit 0 is the first digit behind the point.
+//! A binomial coefficient is odd where the bits of one number contain those of the other (Lucas).
+//! So a power of Pascal's matrix is a product of one step for each bit of the digits' positions,
+//! and needs no table.
+//!
+//! All numbers are bit-reversed: bit 0 is the first binary digit after the point.
 
 use super::owen::BLOCK;
 
-/// The points of a half of the four coordinates: its pair at `index`, with bits in reverse.
+/// Coordinates (0, 1) of the point at `index` for `half` = 0, coordinates (2, 3) for 1;
+/// bit-reversed.
 #[inline]
 pub const fn pair(index: u32, half: u32) -> [u32; 2] {
     if half == 0 {
@@ -22,7 +27,8 @@ pub const fn pair(index: u32, half: u32) -> [u32; 2] {
     }
 }
 
-/// [`pair`] of the first indices, by half. It is linear: pairs of two indices without common bits combine by XOR.
+/// [`pair`] of the first [`BLOCK`] indices, for each half. `pair` is linear over XOR: the pairs of
+/// two indices without common bits combine by XOR.
 pub const FIRST_PAIRS: [[[u32; 2]; BLOCK as usize]; 2] = {
     let mut pairs = [[[0; 2]; BLOCK as usize]; 2];
     let mut i = 0;
@@ -33,7 +39,8 @@ pub const FIRST_PAIRS: [[[u32; 2]; BLOCK as usize]; 2] = {
     pairs
 };
 
-/// Pascal's matrix to the power of a field element x times the digits of `v`; `powers` are x, x², x⁴, x⁸.
+/// The power x of Pascal's matrix times the digits of `v`, where x is a field element; `powers` are
+/// x, x², x⁴, x⁸.
 #[inline]
 const fn pascal(mut v: u32, powers: [u32; 4]) -> u32 {
     v ^= times(v >> 2 & 0x3333_3333, powers[0]);
@@ -42,7 +49,7 @@ const fn pascal(mut v: u32, powers: [u32; 4]) -> u32 {
     v ^ times(v >> 16, powers[3])
 }
 
-/// Sixteen digits times a field element: 1, 2 for w, or 3 for w² = w + 1.
+/// The product of 16 base-4 digits with a field element: 1, 2 for w, 3 for w² = w + 1.
 #[inline]
 const fn times(v: u32, x: u32) -> u32 {
     let (low, high) = (v & 0x5555_5555, v >> 1 & 0x5555_5555);
@@ -53,7 +60,7 @@ const fn times(v: u32, x: u32) -> u32 {
     }
 }
 
-/// Puts the sum of both bits of each digit in the place of its first.
+/// Replaces the first bit of each digit by the sum of both.
 #[inline]
 const fn sum_first(v: u32) -> u32 {
     v ^ (v >> 1 & 0x5555_5555)

@@ -1,4 +1,4 @@
-//! [`SobolSampler`]: Owen-scrambled points of low discrepancy.
+//! [`SobolSampler`]: Owen-scrambled Sobol points.
 
 use glam::Vec2;
 
@@ -9,18 +9,21 @@ use super::owen::{
 use super::sequence::{FIRST_PAIRS, pair};
 use super::{SampleId, Sampler};
 
-/// Owen-scrambled Sobol points: wherever a set ends, what was taken is spread evenly.
+/// Owen-scrambled Sobol points: a progressive low-discrepancy sequence, evenly distributed at any
+/// number of samples.
 ///
-/// A set has up to 2³² samples and does not know of its size. Any 2ᵏ samples whose first index is a multiple of 2ᵏ
-/// have exactly one point in each of the 2ᵏ boxes of any shape 2⁻ᵃ × 2⁻ᵏ⁺ᵃ, in every dimension, down to the 2⁻²⁴
-/// that a float resolves. Sizes that are no power of two are unbiased too, but less even.
+/// A set has up to 2³² samples; its size need not be known in advance. In every dimension, any 2ᵏ
+/// samples whose first index is a multiple of 2ᵏ are a (0, k, 2)-net: one point in each box of size
+/// 2⁻ᵃ × 2⁻ᵏ⁺ᵃ, for every a, down to the 2⁻²⁴ that a float resolves. Other numbers of samples are
+/// unbiased too, but less even.
 ///
-/// Dimensions d and d + 2, where d mod 4 is 0 or 1, are spread together: 4ᵏ samples, aligned, have one in each box
-/// whose four sides are powers of 1/4 with product 4⁻ᵏ. Each such couple is scrambled and shuffled on its own, as
-/// is each pixel and each set. In one dimension, the error of smooth integrands falls almost with n⁻¹·⁵.
+/// Dimensions d and d + 2, where d mod 4 is 0 or 1, form a *couple* that is stratified jointly in
+/// 4D: 4ᵏ aligned samples have one point in each box whose four sides are powers of 1/4 with
+/// product 4⁻ᵏ. Couples, pixels and sets are scrambled and shuffled independently. In one
+/// dimension, the error of smooth integrands falls almost as n⁻¹·⁵.
 ///
-/// Points of the couple: Ahmed 2024, "SZ Sequences"; scramble and shuffle by hashing: [Burley 2020], "Practical
-/// Hash-based Owen Scrambling", sections 3 and 4.
+/// Points of a couple: Ahmed 2024, "SZ Sequences". Scrambling and shuffling by hashing: [Burley
+/// 2020], "Practical Hash-based Owen Scrambling", sections 3 and 4.
 ///
 /// [Burley 2020]: https://jcgt.org/published/0009/04/01/
 ///
@@ -39,19 +42,19 @@ use super::{SampleId, Sampler};
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct SobolSampler {
-    /// For the scrambles.
+    /// Seed of the scrambles of coordinates.
     value_seed: u64,
-    /// For the order of samples.
+    /// Seed of the shuffles of sample order.
     order_seed: u64,
 }
 
 impl SobolSampler {
-    /// Each seed gives another image.
+    /// Different seeds give different images.
     pub fn new(seed: u64) -> Self {
         Self { value_seed: mix(seed), order_seed: mix(!seed) }
     }
 
-    /// The numbers of these samples, in place of what `values` holds.
+    /// The value of each id, written over the contents of `values`.
     #[inline]
     pub(super) fn fill_1d_of(
         &self,
@@ -62,12 +65,12 @@ impl SobolSampler {
         values.clear();
         let mut block: Option<Block> = None;
         values.extend(ids.map(|id| {
-            let block = Block::go_on(&mut block, self, id, dimension);
-            unit(scramble(block.place(id.index)[0].into(), block.seeds[0]) as u32)
+            let block = Block::cached(&mut block, self, id, dimension);
+            unit(scramble(block.point(id.index)[0].into(), block.seeds[0]) as u32)
         }));
     }
 
-    /// The points of these samples, in place of what `points` holds.
+    /// The point of each id, written over the contents of `points`.
     #[inline]
     pub(super) fn fill_2d_of(
         &self,
@@ -81,8 +84,8 @@ impl SobolSampler {
         while ids.len() > 0 {
             let count = ids.len().min(LANES);
             for (lane, id) in ids.by_ref().take(count).enumerate() {
-                let block = Block::go_on(&mut block, self, id, dimension);
-                let [x, y] = block.place(id.index);
+                let block = Block::cached(&mut block, self, id, dimension);
+                let [x, y] = block.point(id.index);
                 (lanes.x[lane], lanes.y[lane]) = (x.into(), y.into());
                 [lanes.x_seeds[lane], lanes.y_seeds[lane]] = block.seeds;
             }
@@ -99,13 +102,13 @@ impl Sampler for SobolSampler {
     #[inline]
     fn get_1d(&self, id: SampleId, dimension: u32) -> f32 {
         let block = Block::new(self, id, dimension);
-        unit(scramble(block.place(id.index)[0].into(), block.seeds[0]) as u32)
+        unit(scramble(block.point(id.index)[0].into(), block.seeds[0]) as u32)
     }
 
     #[inline]
     fn get_2d(&self, id: SampleId, dimension: u32) -> Vec2 {
         let block = Block::new(self, id, dimension);
-        let [x, y] = block.place(id.index);
+        let [x, y] = block.point(id.index);
         let [x, y] = [scramble(x.into(), block.seeds[0]), scramble(y.into(), block.seeds[1])];
         Vec2::new(unit(x as u32), unit(y as u32))
     }
@@ -119,22 +122,23 @@ impl Sampler for SobolSampler {
     }
 }
 
-/// The couple that a dimension belongs to, and which of its halves it is.
+/// The index of the couple that `dimension` belongs to, and which half of the couple it is.
 #[inline]
 pub(super) fn couple(dimension: u32) -> (u32, u32) {
     (dimension >> 2 << 1 | dimension & 1, dimension >> 1 & 1)
 }
 
-/// What an aligned block of samples shares in one dimension.
+/// What an aligned block of [`BLOCK`] samples has in common in one dimension.
 struct Block {
-    /// The first sample.
+    /// Id of the first sample.
     first: SampleId,
-    /// For the scrambles of both coordinates.
+    /// Seeds of the scrambles of x and y.
     seeds: [u64; 2],
-    /// For the order within the block.
+    /// Random bits of the shuffle within the block.
     coins: u32,
-    /// Both coordinates of the block's first place in the sequence, with bits in reverse.
+    /// x and y of the shuffled block's first point, not scrambled yet, bit-reversed.
     base: [u32; 2],
+    /// Which half of its couple the dimension is.
     half: u32,
 }
 
@@ -155,34 +159,34 @@ impl Block {
         }
     }
 
-    /// The block of this sample: the one at hand, as long as the sample is in it.
+    /// The block of `id`: the cached one if it holds `id`, otherwise a new one, which replaces it.
     #[inline]
-    fn go_on<'a>(
-        at_hand: &'a mut Option<Self>,
+    fn cached<'a>(
+        cache: &'a mut Option<Self>,
         sampler: &SobolSampler,
         id: SampleId,
         dimension: u32,
     ) -> &'a Self {
         let first = SampleId { index: id.index & !(BLOCK - 1), ..id };
-        if at_hand.as_ref().is_none_or(|block| block.first != first) {
-            *at_hand = Some(Self::new(sampler, id, dimension));
+        if cache.as_ref().is_none_or(|block| block.first != first) {
+            *cache = Some(Self::new(sampler, id, dimension));
         }
-        at_hand.as_ref().expect("there is one by now")
+        cache.as_ref().expect("the cache was filled above")
     }
 
-    /// Both coordinates of a sample of the block before they are scrambled, with bits in reverse.
+    /// x and y of a sample of the block before scrambling, bit-reversed.
     #[inline]
-    fn place(&self, index: u32) -> [u32; 2] {
+    fn point(&self, index: u32) -> [u32; 2] {
         let within = shuffle_within_block(index, self.coins);
         let [x, y] = FIRST_PAIRS[self.half as usize][within];
         [self.base[0] ^ x, self.base[1] ^ y]
     }
 }
 
-/// How many points are scrambled together.
+/// Points that are scrambled together, so that the compiler vectorises the loop.
 const LANES: usize = 16;
 
-/// Points on their way through the scramble.
+/// Structure of arrays of bit-reversed points and the seeds of their scrambles.
 #[derive(Default)]
 struct Lanes {
     x: [u64; LANES],

@@ -1,4 +1,4 @@
-//! [`StratifiedSampler`]: one jittered sample in each cell of a grid.
+//! [`StratifiedSampler`]: one jittered sample per cell of a grid.
 
 use glam::Vec2;
 
@@ -6,26 +6,27 @@ use super::hash::{hash, mix, permute, unit_float};
 use super::{SampleId, Sampler};
 use crate::geometry::float::ONE_MINUS_EPSILON;
 
-/// Jittered samples: the square is cut into equal cells and each sample has a cell to itself
-/// (PBRT 3rd edition, section 7.3). The cells are dealt out in a new random order in each pixel and
-/// dimension, so that dimensions stay independent.
+/// Stratified (jittered) sampling: the unit square is cut into equal cells, and each sample of a
+/// set has its own cell (PBRT 3rd edition, section 7.3). Each pixel, set and dimension has its own
+/// random assignment of samples to cells, so dimensions are independent.
 ///
-/// Any number of samples will do. When it is not the product of two near factors the grid has a few
-/// cells more than there are samples, and those that stay empty are drawn at random: the estimate
-/// stays unbiased. Samples beyond the set begin a new one.
+/// Sets may have any number of samples. If that is not the product of two close factors, the grid
+/// has a few cells more, and which of them stay empty is random: the estimate is unbiased. Samples
+/// beyond the set begin a new one.
 #[derive(Clone, Copy, Debug)]
 pub struct StratifiedSampler {
     samples_per_set: u32,
     columns: u32,
     rows: u32,
-    /// For what each sample has to itself.
+    /// Seed of the jitter, which is drawn for each sample.
     jitter_seed: u64,
-    /// For what the samples of a set share.
+    /// Seed of the assignment of cells, which is drawn for each set.
     order_seed: u64,
 }
 
 impl StratifiedSampler {
-    /// A sampler for sets of `samples_per_set` samples, at least 1; each seed gives another image.
+    /// A sampler for sets of `samples_per_set` samples, at least 1. Different seeds give different
+    /// images.
     pub fn new(samples_per_set: u32, seed: u64) -> Self {
         let samples_per_set = samples_per_set.max(1);
         let columns = samples_per_set.isqrt();
@@ -34,7 +35,8 @@ impl StratifiedSampler {
         Self { samples_per_set, columns, rows, jitter_seed, order_seed }
     }
 
-    /// The random bits that a set of samples shares in one dimension, and the place within the set.
+    /// The key of the permutation that a set has in `dimension`, and the sample's index within the
+    /// set.
     #[inline]
     fn shared(&self, id: SampleId, dimension: u32) -> (u64, u32) {
         let set = SampleId { index: id.index / self.samples_per_set, ..id };
@@ -49,16 +51,16 @@ impl Sampler for StratifiedSampler {
 
     #[inline]
     fn get_1d(&self, id: SampleId, dimension: u32) -> f32 {
-        let (key, place) = self.shared(id, dimension);
-        let cell = permute(place, self.samples_per_set, key);
+        let (key, index) = self.shared(id, dimension);
+        let cell = permute(index, self.samples_per_set, key);
         let jitter = unit_float((hash(self.jitter_seed, id, dimension) >> 32) as u32);
         within(cell, jitter, self.samples_per_set)
     }
 
     #[inline]
     fn get_2d(&self, id: SampleId, dimension: u32) -> Vec2 {
-        let (key, place) = self.shared(id, dimension);
-        let cell = permute(place, self.columns * self.rows, key);
+        let (key, index) = self.shared(id, dimension);
+        let cell = permute(index, self.columns * self.rows, key);
         let bits = hash(self.jitter_seed, id, dimension);
         Vec2::new(
             within(cell % self.columns, unit_float((bits >> 32) as u32), self.columns),
@@ -67,7 +69,8 @@ impl Sampler for StratifiedSampler {
     }
 }
 
-/// The point at `jitter` of the way through cell `cell` of `cells`; rounding never makes it 1.
+/// The position `jitter` of the way through `cell`, where `cells` of them fill `[0, 1)`. Rounding
+/// never gives 1.
 #[inline]
 fn within(cell: u32, jitter: f32, cells: u32) -> f32 {
     ((cell as f32 + jitter) / cells as f32).min(ONE_MINUS_EPSILON)

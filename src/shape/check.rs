@@ -1,18 +1,22 @@
-//! What a [`TriangleMesh`] promises, checked.
+//! Validation of [`TriangleMesh`], and [`MeshError`].
 
 use glam::{Vec2, Vec3};
 
-use super::TriangleMesh;
+use super::mesh::TriangleMesh;
 use crate::geometry::float::LARGEST_COORDINATE;
 
 impl TriangleMesh {
-    /// Checks what the type promises: that `normals` and `uvs` are empty or as long as `positions`,
-    /// that every number is finite and positions are within [`LARGEST_COORDINATE`], that every index is in range, and that there are fewer than
-    /// 2^32 vertices and triangles. A mesh without triangles passes. Whether normals have unit
-    /// length is not checked.
+    /// Validates the mesh:
+    ///
+    /// - `normals` and `uvs` are empty or as long as `positions`;
+    /// - all numbers are finite, and positions are within ± [`LARGEST_COORDINATE`];
+    /// - all indices are in range;
+    /// - there are fewer than 2³² vertices and triangles.
+    ///
+    /// An empty mesh is valid. The length of normals is not checked.
     ///
     /// # Errors
-    /// The first thing that is wrong, in the order above.
+    /// The first violation, in this order.
     pub fn check(&self) -> Result<(), MeshError> {
         let vertices = self.positions.len();
         for (what, found) in [("normals", self.normals.len()), ("uvs", self.uvs.len())] {
@@ -50,64 +54,65 @@ impl TriangleMesh {
     }
 }
 
-/// What [`TriangleMesh::check`] found. Vertices and triangles count from 0.
+/// An invalid [`TriangleMesh`], found by [`TriangleMesh::check`]. Vertices and triangles are
+/// numbered from 0.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshError {
-    /// There are too many or too few of what comes once for each vertex.
+    /// `normals` or `uvs` is neither empty nor as long as `positions`.
     #[error(
         "mesh has {found} {what} and {vertices} vertices, expected none or one for each vertex"
     )]
     Length {
         /// "normals" or "uvs".
         what: &'static str,
-        /// How many there are.
+        /// Its length.
         found: usize,
-        /// How many there have to be, unless there are none.
+        /// The number of positions.
         vertices: usize,
     },
-    /// A position that is NaN, infinite or too far out.
+    /// A position is NaN, infinite or beyond [`LARGEST_COORDINATE`].
     #[error("vertex {vertex} is at {found}, expected finite coordinates up to 1e12")]
     Position {
-        /// Whose it is.
+        /// Index of the vertex.
         vertex: usize,
-        /// What it is.
+        /// Its position.
         found: Vec3,
     },
-    /// A normal that is NaN or infinite.
+    /// A normal is NaN or infinite.
     #[error("vertex {vertex} has the normal {found}, expected finite numbers")]
     Normal {
-        /// Whose it is.
+        /// Index of the vertex.
         vertex: usize,
-        /// What it is.
+        /// Its normal.
         found: Vec3,
     },
-    /// A texture coordinate that is NaN or infinite.
+    /// A texture coordinate is NaN or infinite.
     #[error("vertex {vertex} has the texture coordinates {found}, expected finite numbers")]
     Uv {
-        /// Whose it is.
+        /// Index of the vertex.
         vertex: usize,
-        /// What it is.
+        /// Its texture coordinates.
         found: Vec2,
     },
-    /// An index without a vertex.
+    /// A vertex index is out of range.
     #[error(
         "triangle {triangle} refers to vertex {found}, but vertices count from 0 and there are {vertices}"
     )]
     Index {
-        /// Whose it is.
+        /// Index of the triangle.
         triangle: usize,
-        /// The largest of its indices.
+        /// The largest of its vertex indices.
         found: u32,
-        /// How many vertices there are.
+        /// Number of vertices.
         vertices: usize,
     },
-    /// More than a `u32` can count.
+    /// There are more vertices or triangles than a `u32` can count.
     #[error("mesh has {found} {what}, expected fewer than 4294967296")]
     TooMany {
         /// "vertices" or "triangles".
         what: &'static str,
-        /// How many there are.
+        /// Their number.
         found: usize,
     },
 }

@@ -1,26 +1,45 @@
-//! [`TriangleMesh`]: the one kind of shape.
+//! [`TriangleMesh`]: an indexed triangle mesh.
 
 use glam::{Affine3A, DMat3, DVec3, Vec2, Vec3};
 
-use super::triangle_normal;
+use super::triangle::triangle_normal;
 use crate::geometry::float::gamma;
 use crate::geometry::{Frame, unit_cross};
 
-/// Triangles that share their vertices.
+/// An indexed triangle mesh.
 ///
-/// `normals` and `uvs` are either empty or as long as `positions`. A normal of zero length says that
-/// its vertex has none: a triangle with such a corner is shaded with its geometric normal.
-/// Indices are in range and positions are finite: [`TriangleMesh::check`] says so, and whatever
-/// reads or takes in a mesh calls it.
+/// `normals` and `uvs` are either empty or as long as `positions`. A vertex without a normal has
+/// one of zero length; a triangle with such a corner is shaded with its geometric normal. Indices
+/// are in range, and positions are finite. [`TriangleMesh::check`] validates all of that; readers
+/// of meshes and scenes call it.
+///
+/// ```
+/// use lobe::TriangleMesh;
+/// use lobe::glam::{Vec3, vec3};
+///
+/// let mut mesh = TriangleMesh {
+///     positions: vec![Vec3::ZERO, Vec3::X, vec3(1.0, 1.0, 0.0), Vec3::Y],
+///     indices: vec![[0, 1, 2], [0, 2, 3]],
+///     ..TriangleMesh::default()
+/// };
+/// assert_eq!(mesh.check(), Ok(()));
+/// assert_eq!(mesh.geometric_normal(0), Vec3::Z);
+///
+/// mesh.indices.push([0, 3, 4]);
+/// assert_eq!(
+///     mesh.check().unwrap_err().to_string(),
+///     "triangle 2 refers to vertex 4, but vertices count from 0 and there are 4"
+/// );
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriangleMesh {
-    /// Vertex positions.
+    /// Vertex positions, in scene units.
     pub positions: Vec<Vec3>,
-    /// Shading normals by vertex, of unit length or zero; empty when the mesh has none.
+    /// Shading normal of each vertex, of unit length or zero; empty if the mesh has none.
     pub normals: Vec<Vec3>,
-    /// Texture coordinates by vertex; empty when the mesh has none.
+    /// Texture coordinates of each vertex; empty if the mesh has none.
     pub uvs: Vec<Vec2>,
-    /// The corners of each triangle, counter-clockwise seen from outside.
+    /// Vertex indices of each triangle's corners, counter-clockwise seen from outside.
     pub indices: Vec<[u32; 3]>,
 }
 
@@ -36,31 +55,31 @@ impl TriangleMesh {
         }
     }
 
-    /// The corners of a triangle.
+    /// The positions of a triangle's corners.
     ///
     /// # Panics
-    /// Like all that take a triangle's number, if there is no such triangle.
+    /// If there is no such triangle, as all methods with a triangle's index do.
     #[inline]
     pub fn corners(&self, triangle: usize) -> [Vec3; 3] {
         self.indices[triangle].map(|i| self.positions[i as usize])
     }
 
-    /// The unit normal of a triangle's plane, on the side from which its corners run
-    /// counter-clockwise; zero when the triangle has no area.
+    /// The unit geometric normal of a triangle, on the side from which its corners are
+    /// counter-clockwise; zero for a degenerate triangle.
     #[inline]
     pub fn geometric_normal(&self, triangle: usize) -> Vec3 {
         triangle_normal(self.corners(triangle))
     }
 
-    /// The unit normal between those of a triangle's corners, by barycentric weights, when all three
-    /// have one and they do not cancel.
+    /// The shading normal at barycentric coordinates `b` of a triangle: the interpolated vertex
+    /// normals, at unit length. `None` if a corner has no normal, or if they cancel.
     #[inline]
     pub fn shading_normal(&self, triangle: usize, b: [f32; 3]) -> Option<Vec3> {
         let [n0, n1, n2] = self.corner_normals(triangle)?;
         (b[0] * n0 + b[1] * n1 + b[2] * n2).try_normalize()
     }
 
-    /// The texture coordinates of a triangle's corners: (0,0), (1,0), (1,1) when the mesh has none.
+    /// The texture coordinates of a triangle's corners; (0,0), (1,0), (1,1) if the mesh has none.
     #[inline]
     pub fn corner_uvs(&self, triangle: usize) -> [Vec2; 3] {
         if self.uvs.is_empty() {
@@ -69,11 +88,11 @@ impl TriangleMesh {
         self.indices[triangle].map(|i| self.uvs[i as usize])
     }
 
-    /// ∂p/∂u and ∂p/∂v of a triangle.
+    /// ∂p/∂u and ∂p/∂v of a triangle, in scene units per unit of u and v.
     ///
-    /// p is linear in (u, v), so the two edges from the third corner give a 2 × 2 system
-    /// (PBRT 3rd edition, section 3.6.2). Where it cannot be told from a singular one, any two
-    /// tangents are as good as others.
+    /// p is linear in (u, v), so the edges from the third corner give a 2 × 2 linear system (PBRT
+    /// 3rd edition, section 3.6.2). If it may be singular, the result is an arbitrary pair of unit
+    /// tangents.
     pub fn position_partials(&self, triangle: usize) -> [Vec3; 2] {
         let [p0, p1, p2] = self.corners(triangle);
         let solved = self.solve_uv(triangle, p0 - p2, p1 - p2);
@@ -83,22 +102,23 @@ impl TriangleMesh {
         })
     }
 
-    /// ∂n/∂u and ∂n/∂v of a triangle's vertex normals; zero without them, or without usable
-    /// texture coordinates.
+    /// ∂n/∂u and ∂n/∂v of a triangle's vertex normals; zero if a corner has no normal, or if the
+    /// texture coordinates are degenerate.
     pub fn normal_partials(&self, triangle: usize) -> [Vec3; 2] {
         self.corner_normals(triangle)
             .and_then(|[n0, n1, n2]| self.solve_uv(triangle, n0 - n2, n1 - n2))
             .unwrap_or_default()
     }
 
-    /// Applies a transformation to positions and normals. One that mirrors turns the triangles
-    /// round, so that outside stays outside.
+    /// Transforms positions and normals. A transformation that mirrors also reverses the order of
+    /// each triangle's corners, so that the outside stays outside.
     pub fn transform(&mut self, transform: &Affine3A) {
         for p in &mut self.positions {
             *p = transform.transform_point3(*p);
         }
-        // Normals go with the inverse transpose, which is the cofactor matrix but for a factor: it exists
-        // even when the inverse does not. Its products leave the range of f32.
+        // Normals are transformed by the inverse transpose, which is the cofactor matrix up to a
+        // factor. The cofactor matrix exists even for singular transformations. In f64, because its
+        // products exceed the range of f32.
         let [x, y, z]: [DVec3; 3] =
             [transform.x_axis, transform.y_axis, transform.z_axis].map(|v| Vec3::from(v).into());
         let mirrored = x.cross(y).dot(z) < 0.0;
@@ -112,7 +132,7 @@ impl TriangleMesh {
         }
     }
 
-    /// The normals of a triangle's corners, when all three have one.
+    /// The normals of a triangle's corners; `None` if one has none.
     #[inline]
     fn corner_normals(&self, triangle: usize) -> Option<[Vec3; 3]> {
         if self.normals.is_empty() {
@@ -122,8 +142,9 @@ impl TriangleMesh {
         normals.iter().all(|n| *n != Vec3::ZERO).then_some(normals)
     }
 
-    /// The derivatives by u and v of what changes by `d02` and `d12` from the third corner of a
-    /// triangle to the first and second; `None` when the texture coordinates do not span a plane.
+    /// The derivatives by u and v of a quantity that is linear over a triangle. `d02` and `d12` are
+    /// its differences from the third corner to the first and second. `None` if the texture
+    /// coordinates are degenerate.
     fn solve_uv(&self, triangle: usize, d02: Vec3, d12: Vec3) -> Option<[Vec3; 2]> {
         let [uv0, uv1, uv2] = self.corner_uvs(triangle);
         let (duv02, duv12) = (uv0 - uv2, uv1 - uv2);

@@ -1,4 +1,19 @@
-//! Shapes: triangle meshes, the ray-triangle test, and reading them from Wavefront OBJ.
+//! Shapes: triangle meshes, the watertight ray-triangle test, and the reader of Wavefront OBJ
+//! files.
+//!
+//! ```
+//! use lobe::geometry::Ray;
+//! use lobe::glam::Vec3;
+//! use lobe::shape::{ShearedRay, parse_obj};
+//!
+//! let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+//! let mesh = parse_obj("triangle.obj", text.as_bytes())?.mesh;
+//!
+//! let ray = Ray::new(Vec3::new(0.25, 0.5, 2.0), -Vec3::Z);
+//! let hit = ShearedRay::new(&ray).intersect(&mesh.corners(0), ray.t_min, ray.t_max).unwrap();
+//! assert_eq!((hit.t, hit.b), (2.0, [0.25, 0.25, 0.5]));
+//! # Ok::<(), lobe::shape::ObjError>(())
+//! ```
 
 mod check;
 mod mesh;
@@ -8,5 +23,5 @@ mod triangle;
 pub use check::MeshError;
 pub use mesh::TriangleMesh;
 pub use obj::{ObjAttribute, ObjError, ObjMesh, ObjProblem, ObjReport, parse_obj, read_obj};
-pub(crate) use triangle::FAR;
+pub(crate) use triangle::{FAR, triangle_normals};
 pub use triangle::{ShearedRay, TriangleHit, triangle_normal};

@@ -1,19 +1,20 @@
-//! The triangle: its normal, and whether and where a ray meets it.
+//! Triangles: geometric normals, and the watertight ray-triangle test.
 
-use glam::{DVec3, Vec3, Vec3A, Vec3Swizzles};
+use glam::{DVec3, Vec3, Vec3A, Vec3Swizzles, Vec4};
 
 use crate::geometry::Ray;
 use crate::geometry::float::gamma;
+use crate::geometry::four::Vec3x4;
 
-/// The unit normal of a triangle, on the side from which its corners run counter-clockwise; zero for
-/// a triangle without area.
+/// The unit normal of a triangle, on the side from which its corners are counter-clockwise; zero
+/// for a degenerate triangle.
 #[inline]
 pub fn triangle_normal([p0, p1, p2]: [Vec3; 3]) -> Vec3 {
     let (e1, e2) = (p1 - p0, p2 - p0);
     let n = e1.cross(e2);
     let length2 = n.length_squared();
-    // The products cancel where the edges run along each other: below a sine of 1/10, f64 is asked. So it
-    // is where squares leave the range of f32 or lose digits in it.
+    // Nearly parallel edges, with a sine below 1/10, cancel in the cross product: f64 is used. So
+    // it is where squares exceed the range of f32 or lose digits in it.
     let wide = length2 > 0.01 * e1.length_squared() * e2.length_squared();
     if wide && length2 > f32::MIN_POSITIVE / f32::EPSILON && length2 < f32::INFINITY {
         return n / length2.sqrt();
@@ -27,39 +28,54 @@ fn triangle_normal_f64(corners: [Vec3; 3]) -> Vec3 {
     (p1 - p0).cross(p2 - p0).normalize_or_zero().as_vec3()
 }
 
-/// A ray prepared for the triangle test: shear and permutation that turn it into the +z axis.
+/// Four lanes of [`triangle_normal`], and whether f32 is precise enough in all of them: without it,
+/// the normals are not usable.
+#[inline(always)]
+pub(crate) fn triangle_normals([p0, p1, p2]: [Vec3x4; 3]) -> (Vec3x4, bool) {
+    let (e1, e2) = (p1 - p0, p2 - p0);
+    let n = e1.cross(e2);
+    let length2 = n.length_squared();
+    let least = Vec4::splat(0.01) * e1.length_squared() * e2.length_squared();
+    let sound = length2.cmpgt(least)
+        & length2.cmpgt(Vec4::splat(f32::MIN_POSITIVE / f32::EPSILON))
+        & length2.cmplt(Vec4::INFINITY);
+    (n.divided_by(length2.sqrt()), sound.all())
+}
+
+/// A ray prepared for the triangle test: the permutation of axes and the shear that turn its
+/// direction into +z.
 #[derive(Clone, Copy, Debug)]
 pub struct ShearedRay {
-    /// The origin, by the axes below.
+    /// The origin, in permuted coordinates.
     pub(crate) o: [f32; 3],
-    /// The axes that become x, y and z; z is where the direction is longest.
+    /// The axes that become x, y and z. z is the axis along which the direction is longest.
     pub(crate) axes: [usize; 3],
-    /// What is added to x and y in proportion to z, and how much t there is to z.
+    /// The shear: factors of z that are added to x and to y, and the factor from z to t.
     pub(crate) shear: [f32; 3],
 }
 
-/// Where a ray meets a triangle.
+/// Intersection of a ray with a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriangleHit {
-    /// Distance in lengths of the ray's direction.
+    /// Distance along the ray, in lengths of its direction.
     pub t: f32,
-    /// Barycentric weights of the corners.
+    /// Barycentric coordinates: the weights of the corners.
     pub b: [f32; 3],
 }
 
 impl ShearedRay {
-    /// Prepares a ray.
+    /// Prepares a ray whose direction is finite and not zero.
     #[inline]
     pub fn new(ray: &Ray) -> Self {
         let axes = Self::axes_of(ray);
-        // By reference, so that coordinates are read from where they are.
+        // By reference, so that coordinates are read in place.
         let (d, o): (&[f32; 3], &[f32; 3]) = (ray.d.as_ref(), ray.o.as_ref());
         let [x, y, z] = axes;
         let shear = Vec3A::new(-d[x], -d[y], 1.0) / d[z];
         Self { o: [o[x], o[y], o[z]], axes, shear: shear.to_array() }
     }
 
-    /// The axes that become x, y and z.
+    /// The axes that become x, y and z: a cyclic permutation.
     #[inline]
     pub(crate) fn axes_of(ray: &Ray) -> [usize; 3] {
         let size = ray.d.abs();
@@ -72,21 +88,22 @@ impl ShearedRay {
         }
     }
 
-    /// The hit with t in `[t_min, t_max]`, if there is one that rounding cannot have made up.
+    /// The intersection with t in `[t_min, t_max]`. `None` if there is none, or if t is within its
+    /// error bound of zero: such a hit may lie behind the origin.
     ///
-    /// Woop, Benthin and Wald 2013, "Watertight Ray/Triangle Intersection", in the form of
-    /// PBRT 3rd edition, section 3.6.2: in the sheared space the ray is the z axis, and three edge
-    /// functions say on which side of it each edge runs. Neighbouring triangles compute the same
-    /// numbers for a shared edge, so a ray cannot slip between them. An edge function that is
-    /// exactly zero is computed again in f64, which has room for the exact products.
+    /// The watertight test of Woop, Benthin and Wald 2013, "Watertight Ray/Triangle Intersection",
+    /// in the form of PBRT 3rd edition, section 3.6.2. In the sheared space the ray is the z axis,
+    /// and the signs of three edge functions tell on which side of it each edge passes. Triangles
+    /// that share an edge compute the same numbers for it, so no ray slips between them. An edge
+    /// function that is exactly zero is recomputed in f64, in which the products are exact.
     #[inline]
     pub fn intersect(&self, corners: &[Vec3; 3], t_min: f32, t_max: f32) -> Option<TriangleHit> {
         let corners = corners.map(|corner| corner.to_array());
         self.intersect_at(|axis| corners.map(|corner| corner[axis]), t_min, t_max)
     }
 
-    /// [`ShearedRay::intersect`] for corners that are kept in any way: `coordinates` tells one of each
-    /// corner.
+    /// [`ShearedRay::intersect`] for corners stored in any layout: `coordinates` returns one
+    /// coordinate of all three corners, given the axis.
     #[inline(always)]
     pub(crate) fn intersect_at(
         &self,
@@ -94,8 +111,7 @@ impl ShearedRay {
         t_min: f32,
         t_max: f32,
     ) -> Option<TriangleHit> {
-        // One coordinate of all three corners at a time, in the space where the ray starts at the origin
-        // and runs along z.
+        // One permuted coordinate of all three corners, relative to the origin of the ray.
         let along = |i: usize| {
             let axis = self.axes[i];
             Vec3A::from(coordinates(axis)) - Vec3A::splat(self.o[i])
@@ -103,7 +119,7 @@ impl ShearedRay {
         let (x, y, z) = (along(0), along(1), along(2));
         let x = x + self.shear[0] * z;
         let y = y + self.shear[1] * z;
-        // The edge opposite to each corner.
+        // The edge function of the edge opposite to each corner.
         let mut e = x.yzx() * y.zxy() - y.yzx() * x.zxy();
         if e.cmpeq(Vec3A::ZERO).any() {
             e = edges_f64(x, y);
@@ -115,7 +131,7 @@ impl ShearedRay {
         if determinant == 0.0 {
             return None;
         }
-        // Depth first: products with a scaled z could leave the range of f32.
+        // Depth before t: products with the scaled z could exceed the range of f32.
         let depth = sum(e * z) / determinant;
         let t = depth * self.shear[2];
         let in_range = t >= t_min
@@ -126,19 +142,19 @@ impl ShearedRay {
     }
 }
 
-/// The sum, from x to z.
+/// The sum, in the order x, y, z.
 #[inline]
 fn sum(v: Vec3A) -> f32 {
     v.x + v.y + v.z
 }
 
-/// The edge functions, twice the signed areas of (origin, p, q) seen along z, with the signs of the exact
-/// values: both products fit into an f64.
+/// The edge functions in f64: twice the signed areas of (origin, p, q) in the xy plane. The
+/// products are exact, so the signs are.
 #[cold]
 fn edges_f64(x: Vec3A, y: Vec3A) -> Vec3A {
     let edge = |p: usize, q: usize| {
         let difference = f64::from(x[p]) * f64::from(y[q]) - f64::from(y[p]) * f64::from(x[q]);
-        // A value too small for f32 must not become zero.
+        // A non-zero value must not underflow to zero in f32.
         let rounded = difference as f32;
         if rounded == 0.0 && difference != 0.0 {
             f32::MIN_POSITIVE.copysign(difference as f32)
@@ -149,15 +165,18 @@ fn edges_f64(x: Vec3A, y: Vec3A) -> Vec3A {
     Vec3A::new(edge(1, 2), edge(2, 0), edge(0, 1))
 }
 
-/// A triangle that is so many times farther away than it is deep surely lies ahead, or behind.
+/// Ratio of distance to depth range beyond which a triangle surely lies in front of the origin, or
+/// behind it.
 ///
-/// The bound on the depth grows with the square of the distance: at 10⁵ sizes of a triangle it would reject all hits, and
-/// nearer those on triangles that are seen edge-on. But where all corners lie ahead, so does the hit. What the bound is
-/// there for, besides, are the triangles that continue the one that a ray leaves: these are near.
+/// Beyond it the error bound of the depth is not applied. The bound grows with the square of the
+/// distance: at 10⁵ sizes of a triangle it would reject all hits, and closer than that those on
+/// triangles seen edge-on. But if all corners lie in front, so does the hit. The bound's other
+/// purpose is to reject hits on the neighbours of the triangle that a ray leaves, and these are
+/// near.
 pub(crate) const FAR: f32 = 8.0;
 
-/// The bound on the error of the depth: a hit at or below it may lie behind the origin
-/// (PBRT 3rd edition, section 3.9.6, where z is scaled to be t). Zero for triangles that are [`FAR`].
+/// Error bound of the depth: a hit at or below it may lie behind the origin (PBRT 3rd edition,
+/// section 3.9.6, which scales z to be t). Zero for triangles beyond [`FAR`].
 #[inline]
 fn least_depth([x, y, z]: [Vec3A; 3], e: Vec3A, determinant: f32) -> f32 {
     let [max_x, max_y, max_z] = [x, y, z].map(|v| v.abs().max_element());

@@ -6,9 +6,10 @@ use super::paths::Path;
 use crate::accel::Hit;
 use crate::bxdf::BxDF;
 use crate::geometry::Ray;
-use crate::geometry::four::{BoundedPointx4, Framex4, Vec3x4, four, three, triangle_normals};
+use crate::geometry::four::{BoundedPointx4, Framex4, Vec3x4, four, three};
 use crate::sampling::cosine_hemisphere;
 use crate::scene::Scene;
+use crate::shape::triangle_normals;
 use crate::spectrum::Spectrum;
 
 /// How many hits are processed together, so that their data stay in the first-level cache.

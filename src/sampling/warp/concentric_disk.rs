@@ -1,8 +1,9 @@
-//! The unit disk, uniformly, with squares around the centre taken to circles.
+//! The unit disk, uniform over area, by the concentric map.
 //!
-//! Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square": on (a, b) = 2u - 1, the
-//! larger of |a| and |b| is the radius, and their ratio runs through an eighth of a turn. Neighbours
-//! stay neighbours, so that stratified samples stay stratified.
+//! Concentric squares become concentric circles (Shirley and Chiu 1997, "A Low Distortion Map
+//! Between Disk and Square"). For (a, b) = 2u - 1, the larger of |a| and |b| is the radius, and
+//! their ratio gives the angle within an eighth of a turn. The map has low distortion, so
+//! stratified samples remain stratified.
 
 use std::f32::consts::{FRAC_1_PI, FRAC_PI_4};
 
@@ -18,22 +19,24 @@ pub fn sample(u: Vec2) -> Vec2 {
     r * direction
 }
 
-/// The signed radius of the point that [`sample`] gives, and the unit vector towards it. The radius is
-/// exact for any u on the grid of floats that samplers give, and 1 only at the border of the square.
+/// [`sample`] in polar form: the signed radius, and the unit vector that it multiplies.
+///
+/// The radius is exact for u with 24 bits, as samplers give them. It is ±1 only at the border of
+/// the square.
 #[inline]
 pub(super) fn polar(u: Vec2) -> (f32, Vec2) {
     let square = 2.0 * u - Vec2::ONE;
     if square.x.abs() > square.y.abs() {
         (square.x, eighth_turn(square.y / square.x))
     } else if square.y != 0.0 {
-        // φ = π/2 - π/4 (a/b): sine and cosine change places.
+        // φ = π/2 - π/4 (a/b): sine and cosine are exchanged.
         (square.y, eighth_turn(square.x / square.y).yx())
     } else {
         (0.0, Vec2::X)
     }
 }
 
-/// Four times [`polar`].
+/// Four lanes of [`polar`].
 #[inline(always)]
 pub(super) fn polar_x4(u: [Vec2; 4]) -> (Vec4, [Vec4; 2]) {
     let x = 2.0 * Vec4::from_array(four(|i| u[i].x)) - Vec4::ONE;
@@ -47,13 +50,13 @@ pub(super) fn polar_x4(u: [Vec2; 4]) -> (Vec4, [Vec4; 2]) {
     (r, [Vec4::select(swap, cos, sin), Vec4::select(swap, sin, cos)])
 }
 
-/// Density over area, 1/π everywhere on the disk.
+/// Density over area: 1/π on the disk.
 #[inline]
 pub fn pdf() -> f32 {
     FRAC_1_PI
 }
 
-/// The u that [`sample`] takes to `p`.
+/// The inverse of [`sample`]: the u whose image is `p`.
 #[inline]
 pub fn inverse(p: Vec2) -> Vec2 {
     let r = p.length();
@@ -73,7 +76,8 @@ pub fn inverse(p: Vec2) -> Vec2 {
 mod tests {
     use super::*;
 
-    /// Against f64, over the whole square. Seen to fail with the last term of either series left out.
+    /// Compared with f64 over a grid of the square. Seen to fail with the last term of either
+    /// series left out.
     #[test]
     fn sampling_by_series_is_exact_to_rounding() {
         let steps = 1 << 10;

@@ -1,15 +1,30 @@
-//! Warps of the unit square, each with the same three functions: `sample` takes u in
-//! `[0, 1)²` to the domain, `pdf` is the density of what comes out, and `inverse` leads back to u. They are functions
-//! of a module (with `_x4` behind the name: for four at a time), or methods where a domain has to be prepared.
+//! Warps: maps from the unit square to other domains, for importance sampling.
 //!
-//! All follow from the same recipe (PBRT 3rd edition, section 13.6): write the density in polar or
-//! spherical coordinates, find the marginal of the first and the conditional of the second, and set
-//! each cumulative distribution equal to one component of u.
+//! Each has the same three functions. `sample` takes u in `[0, 1)²` to the domain, `pdf` is the
+//! probability density of the result, and `inverse` returns the u. They are functions of a module,
+//! or methods of a type where the domain has parameters that need set-up. The suffix `_x4` marks
+//! versions for four lanes.
+//!
+//! All follow one recipe (PBRT 3rd edition, section 13.6): write the density in polar or spherical
+//! coordinates, find the marginal density of the first and the conditional density of the second,
+//! and set the cumulative distribution of each equal to one component of u.
+//!
+//! ```
+//! use lobe::glam::{Vec2, vec2};
+//! use lobe::sampling::cosine_hemisphere;
+//!
+//! let u = vec2(0.25, 0.625);
+//! let w = cosine_hemisphere::sample(u);
+//! assert!(w.is_normalized() && w.z > 0.0);
+//! assert_eq!(cosine_hemisphere::pdf(w.z), w.z * std::f32::consts::FRAC_1_PI);
+//! assert!(cosine_hemisphere::inverse(w).abs_diff_eq(u, 1e-6));
+//! ```
 
 pub mod concentric_disk;
 pub mod cosine_hemisphere;
 mod seen_x4;
 mod spherical_rectangle;
+mod turn;
 pub mod uniform_cone;
 pub mod uniform_disk;
 pub mod uniform_hemisphere;
@@ -19,12 +34,3 @@ pub mod uniform_triangle;
 pub(crate) use seen_x4::SeenX4;
 pub use spherical_rectangle::SphericalRectangle;
 pub(crate) use spherical_rectangle::{LEAST_SOLID_ANGLE, Seen};
-
-use std::f32::consts::TAU;
-
-/// The share of a full turn at which (x, y) stands, in `[0, 1)`.
-fn turn(x: f32, y: f32) -> f32 {
-    let share = y.atan2(x) / TAU;
-    let turn = if share < 0.0 { share + 1.0 } else { share };
-    turn.min(crate::geometry::float::ONE_MINUS_EPSILON)
-}

@@ -1,4 +1,4 @@
-//! [`SeenX4`]: rectangles as they are seen from four points, in f32.
+//! [`SeenX4`]: spherical rectangles for four reference points at a time, in f32.
 
 use std::f32::consts::TAU;
 
@@ -7,28 +7,32 @@ use glam::{BVec4A, Vec2, Vec4};
 use crate::geometry::angle::{angle_x4, unit_circle_x4};
 use crate::geometry::four::four;
 
-/// Only above this solid angle, in sr, is it found well enough in f32: to 1e-5 of itself.
+/// Least solid angle in sr for which f32 is precise enough: above it the relative error of the
+/// solid angle is at most 1e-5.
 const LEAST: f32 = 0.05;
-/// Only if it reaches no more than so many times as far to the side as it is high above the eye: what is close to the
-/// horizon loses digits. From there it is seen under 5.6 sr at most.
+/// Greatest extent of a rectangle to the side, in units of the distance of its plane: near the
+/// horizon precision is lost. Within it, a rectangle subtends at most 5.6 sr.
 const FARTHEST: f32 = 8.0;
 
-/// Four of [`Seen`](super::Seen), each in units of the distance of its plane, by the same formulas.
+/// Four lanes of [`Seen`](super::Seen), by the same formulas. Lengths are in units of the distance
+/// of the plane.
 #[derive(Clone, Copy)]
 pub struct SeenX4 {
     x: [Vec4; 2],
     y: [Vec4; 2],
-    /// That distance.
+    /// The distance of the plane, in scene units.
     z: Vec4,
-    /// The complex number whose argument is E(x₀), of any length.
+    /// The complex number with argument E(x₀), of any magnitude.
     left: [Vec4; 2],
+    /// In sr.
     pub solid_angle: Vec4,
-    /// Where f32 is enough. Elsewhere nothing here is of use.
+    /// The lanes in which f32 is precise enough. The values of other lanes must not be used.
     pub sound: BVec4A,
 }
 
 impl SeenX4 {
-    /// Rectangles from `start` to `start` + `size`, seen from the distance `z` above zero.
+    /// Rectangles from `start` to `start` + `size` in a plane at the distance `z` from the
+    /// reference points, which are the origins. All in scene units.
     #[inline(always)]
     pub fn new(start: [Vec4; 2], size: Vec2, z: Vec4) -> Self {
         let [x0, y0] = [start[0] / z, start[1] / z];
@@ -36,26 +40,27 @@ impl SeenX4 {
         let (left, right) = (strip(x0, y0, y1), strip(x1, y0, y1));
         let cross = left[0] * right[1] - left[1] * right[0];
         let angle = angle_x4([left[0] * right[0] + left[1] * right[1], cross]);
-        // More than a half turn.
+        // A negative angle stands for more than half a turn.
         let solid_angle = Vec4::select(angle.cmplt(Vec4::ZERO), angle + TAU, angle);
         let extent = x0.abs().max(x1.abs()).max(y0.abs()).max(y1.abs());
-        // Rounding can make a small angle slightly negative; one below -LEAST is more than a half turn.
+        // Rounding can make a small angle slightly negative. An angle below -LEAST is one of more
+        // than half a turn.
         let sound = (angle.cmpgt(Vec4::splat(LEAST)) | angle.cmplt(Vec4::splat(-LEAST)))
             & extent.cmple(Vec4::splat(FARTHEST));
         Self { x: [x0, x1], y: [y0, y1], z, left, solid_angle, sound }
     }
 
-    /// A point of each, by its distances from the left and the lower edge.
+    /// A point of each rectangle, as distances from its left and its lower edge.
     #[inline(always)]
     pub fn sample(&self, u: [Vec2; 4]) -> [Vec4; 2] {
         let ([x0, x1], [y0, y1]) = (self.x, self.y);
         let (u0, u1) = (Vec4::from_array(four(|i| u[i].x)), Vec4::from_array(four(|i| u[i].y)));
-        // E(x), a turn of E(x₀).
+        // E(x), which is E(x₀) rotated by u₀ Ω.
         let [a, b] = self.left;
         let length = (a * a + b * b).sqrt();
         let [cos, sin] = unit_circle_x4(u0 * self.solid_angle / TAU);
         let e = [(cos * a - sin * b) / length, (cos * b + sin * a) / length];
-        // The half angle's cosine and sine, of any common length.
+        // Cosine and sine of the half angle, both times an arbitrary factor.
         let right = e[0].cmpgt(Vec4::ZERO);
         let c = Vec4::select(right, 1.0 + e[0], e[1].abs());
         let s = Vec4::select(right, e[1], (1.0 - e[0]).copysign(e[1]));
@@ -65,7 +70,7 @@ impl SeenX4 {
         let outer = (span * c - cosines * s) * (span * c + cosines * s);
         let inner = (cosines * c - sum * s) * (cosines * c + sum * s);
         let x = 2.0 * s * c * cosines / (outer.max(Vec4::ZERO) * inner.max(Vec4::ZERO)).sqrt();
-        // Beyond the edges by rounding.
+        // Rounding can lead beyond the edges.
         let x = x.max(x0).min(x1);
         let depth2 = x * x + 1.0;
         let h0 = y0 / (depth2 + y0 * y0).sqrt();
@@ -76,7 +81,7 @@ impl SeenX4 {
     }
 }
 
-/// The complex number with the argument E(x) for z = 1.
+/// The complex number with argument E(x), for z = 1.
 #[inline(always)]
 fn strip(x: Vec4, y0: Vec4, y1: Vec4) -> [Vec4; 2] {
     let distance2 = x * x + 1.0;
@@ -84,7 +89,7 @@ fn strip(x: Vec4, y0: Vec4, y1: Vec4) -> [Vec4; 2] {
     [r0 * r1 + x * x * y0 * y1, x * across(y0, y1, r0, r1, distance2)]
 }
 
-/// y₁ r₀ - y₀ r₁ for r² = y² + `distance2`.
+/// y₁ r₀ - y₀ r₁ for r² = y² + `distance2`, without cancellation.
 #[inline(always)]
 fn across(y0: Vec4, y1: Vec4, r0: Vec4, r1: Vec4, distance2: Vec4) -> Vec4 {
     let (a, b) = (y1 * r0, y0 * r1);

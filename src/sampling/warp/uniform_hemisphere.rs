@@ -1,13 +1,13 @@
-//! The hemisphere around +z, uniformly.
+//! The hemisphere around +z, uniform over solid angle.
 //!
-//! The density 1/(2π) over solid angle is constant in z = cos θ too (Archimedes), so z = u₀ and
-//! φ = 2π u₁ (PBRT 3rd edition, section 13.6.1).
+//! Uniform density over solid angle is uniform in z = cos θ (Archimedes), so z = u₀ and φ = 2π u₁
+//! (PBRT 3rd edition, section 13.6.1).
 
 use std::f32::consts::TAU;
 
 use glam::{Vec2, Vec3};
 
-use super::turn;
+use super::turn::turn;
 use crate::geometry::angle::unit_circle;
 
 /// A unit vector with z ≥ 0.
@@ -17,13 +17,13 @@ pub fn sample(u: Vec2) -> Vec3 {
     (((1.0 - z) * (1.0 + z)).sqrt() * unit_circle(u.y)).extend(z)
 }
 
-/// Density over solid angle, 1/(2π) above the horizon.
+/// Density over solid angle in 1/sr: 1/(2π) above the horizon.
 #[inline]
 pub fn pdf() -> f32 {
     1.0 / TAU
 }
 
-/// The u that [`sample`] takes to `w`.
+/// The inverse of [`sample`]: the u whose image is `w`.
 #[inline]
 pub fn inverse(w: Vec3) -> Vec2 {
     Vec2::new(w.z, turn(w.x, w.y))

@@ -1,11 +1,12 @@
-//! A triangle, uniformly, as barycentric weights of its first two corners.
+//! A triangle, uniform over area, as barycentric coordinates.
 //!
-//! Heitz 2019, "A Low-Distortion Map Between Triangle and Square": the square is folded along its
-//! diagonal by a shear of each half, which needs no root and moves samples less than the usual √u.
+//! Heitz 2019, "A Low-Distortion Map Between Triangle and Square": each half of the square is
+//! sheared onto one half of the triangle. That needs no square root and distorts less than the
+//! usual map by √u.
 
 use glam::Vec2;
 
-/// The weights (b₀, b₁) of a point; the third is 1 - b₀ - b₁.
+/// Barycentric coordinates (b₀, b₁) of a point; b₂ = 1 - b₀ - b₁.
 #[inline]
 pub fn sample(u: Vec2) -> Vec2 {
     if u.x < u.y {
@@ -17,13 +18,13 @@ pub fn sample(u: Vec2) -> Vec2 {
     }
 }
 
-/// Density over the area of a triangle of this area.
+/// Density over area, for a triangle of this area: 1 / `area`.
 #[inline]
 pub fn pdf(area: f32) -> f32 {
     1.0 / area
 }
 
-/// The u that [`sample`] takes to `b`.
+/// The inverse of [`sample`]: the u whose image is the point with barycentric coordinates `b`.
 #[inline]
 pub fn inverse(b: Vec2) -> Vec2 {
     if b.x < b.y { Vec2::new(2.0 * b.x, b.x + b.y) } else { Vec2::new(b.x + b.y, 2.0 * b.y) }

@@ -1,39 +1,39 @@
-//! [`ObjError`]: why an OBJ file could not be read, and where.
+//! [`ObjError`]: why an OBJ file was refused, and at which line.
 
 use std::fmt::{self, Display, Formatter};
 use std::io;
 
 use crate::geometry::float::LARGEST_COORDINATE;
 
-/// Why an OBJ file could not be read. Each message is one sentence that begins with the file's
-/// name, and with the line where there is one: `wing.obj:12: face has 2 corners, expected ...`.
+/// Why an OBJ file was refused. Each message is one sentence. It begins with the name of the file
+/// and, where it applies, the line: `wing.obj:12: face has 2 of the 3 corners it needs at least`.
 ///
-/// Lines count from 1 and end in LF, CR LF or a lone CR. For a line that a backslash continues,
-/// the number is that of its first part.
+/// Lines are counted from 1 and end in LF, CR LF or a lone CR. A line that is continued by a
+/// backslash has the number of its first part.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ObjError {
-    /// There is nothing at that path.
+    /// The file does not exist.
     #[error("{name}: there is no such file")]
     Missing {
         /// The file, as the caller named it.
         name: String,
     },
-    /// The path leads to a directory.
+    /// The path is a directory.
     #[error("{name}: is a directory, expected an OBJ file")]
     Directory {
         /// The file, as the caller named it.
         name: String,
     },
-    /// Opening or reading failed.
+    /// Opening or reading the file failed.
     #[error("{name}: cannot be read: {source}")]
     Unreadable {
         /// The file, as the caller named it.
         name: String,
-        /// What the system says.
+        /// The error of the operating system.
         source: io::Error,
     },
-    /// The whole file holds no `f` line.
+    /// The file has no `f` line.
     #[error(
         "{name}: has no faces: expected at least one line such as \"f 1 2 3\", found {}",
         Count(*vertices, ObjAttribute::Vertex)
@@ -41,10 +41,10 @@ pub enum ObjError {
     NoFaces {
         /// The file, as the caller named it.
         name: String,
-        /// How many `v` lines it holds.
+        /// Number of `v` lines in the file.
         vertices: usize,
     },
-    /// There is more of something than a `u32` can number.
+    /// There are more elements of a kind than a `u32` can index.
     #[error("{name}: has more than 4294967295 {what}: split it into several meshes")]
     TooLarge {
         /// The file, as the caller named it.
@@ -52,7 +52,7 @@ pub enum ObjError {
         /// "vertices", "texture coordinates", "normals" or "triangles".
         what: &'static str,
     },
-    /// One line is wrong.
+    /// A line is invalid.
     #[error("{name}:{line}: {problem}")]
     Line {
         /// The file, as the caller named it.
@@ -71,7 +71,7 @@ pub enum ObjProblem {
     /// The file begins with the byte order mark of UTF-16.
     #[error("text is UTF-16, expected UTF-8: save the file in that encoding")]
     Utf16,
-    /// Bytes that are no text, where numbers have to stand.
+    /// A line of numbers is not UTF-8.
     #[error("{key} line holds the byte 0x{byte:02X}, which is not UTF-8, expected numbers")]
     NotText {
         /// The keyword of the line.
@@ -79,25 +79,25 @@ pub enum ObjProblem {
         /// The first byte that is not UTF-8.
         byte: u8,
     },
-    /// A `v`, `vt` or `vn` line that ends too early.
+    /// A `v`, `vt` or `vn` line has too few numbers.
     #[error("{} has {found} of the {expected} numbers it needs", attribute.key())]
     TooFewNumbers {
-        /// What the line holds.
+        /// The kind of line.
         attribute: ObjAttribute,
         /// How many numbers it has.
         found: usize,
         /// How many it needs.
         expected: usize,
     },
-    /// A word that is not a number.
+    /// A word is not a number.
     #[error("{} has {text:?} where a number is expected", attribute.key())]
     BadNumber {
-        /// What the line holds.
+        /// The kind of line.
         attribute: ObjAttribute,
-        /// The word.
+        /// The word, shortened to 40 characters.
         text: String,
     },
-    /// A number that is NaN, infinite, or beyond what its attribute may be.
+    /// A number is NaN, infinite, or out of the range of its attribute.
     #[error(
         "{} {index} is {}, expected {}",
         attribute.singular(),
@@ -105,62 +105,62 @@ pub enum ObjProblem {
         attribute.range()
     )]
     OutOfRange {
-        /// What the line holds.
+        /// The kind of element.
         attribute: ObjAttribute,
-        /// Which of the file's it is, counted from 1.
+        /// Index of the element in the file, counted from 1.
         index: usize,
-        /// Its numbers; a texture coordinate has two.
+        /// Its numbers; the third of a texture coordinate is 0 and unused.
         found: [f32; 3],
     },
-    /// A face that encloses nothing.
+    /// A face has fewer than three corners.
     #[error("face has {found} of the 3 corners it needs at least")]
     FewCorners {
         /// How many corners it has.
         found: usize,
     },
-    /// A corner that cannot be read.
+    /// A corner of a face is not of the form v, v/vt, v//vn or v/vt/vn.
     #[error("face has {text:?} where a corner v, v/vt, v//vn or v/vt/vn is expected")]
     BadCorner {
-        /// The corner.
+        /// The corner, shortened to 40 characters.
         text: String,
     },
-    /// The index 0.
+    /// An index is 0.
     #[error("face refers to {} 0, but OBJ counts from 1", attribute.singular())]
     IndexZero {
-        /// What the index stands for.
+        /// The kind of element that is referred to.
         attribute: ObjAttribute,
     },
-    /// A positive index beyond the last one of the file.
+    /// A positive index is larger than the number of elements in the file.
     #[error(
         "face refers to {} {index}, but the file has {}",
         attribute.singular(),
         Count(*count, *attribute)
     )]
     BeyondEnd {
-        /// What the index stands for.
+        /// The kind of element that is referred to.
         attribute: ObjAttribute,
-        /// The index, as it is written.
+        /// The index, as written.
         index: i64,
-        /// How many the whole file has.
+        /// Number of such elements in the file.
         count: usize,
     },
-    /// A negative index that reaches back beyond the first one of the file.
+    /// A negative index refers to an element before the first one.
     #[error(
         "face refers to {} {index}, but {} above it",
         attribute.singular(),
         Standing(*count, *attribute)
     )]
     BeforeStart {
-        /// What the index stands for.
+        /// The kind of element that is referred to.
         attribute: ObjAttribute,
-        /// The index, as it is written.
+        /// The index, as written.
         index: i64,
-        /// How many stand above the face.
+        /// Number of such elements above the face.
         count: usize,
     },
 }
 
-/// What an OBJ file lists with a number of its own, for faces to refer to.
+/// A kind of element that an OBJ file lists and that faces refer to by index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ObjAttribute {
     /// A position: `v`.
@@ -174,12 +174,12 @@ pub enum ObjAttribute {
 impl ObjAttribute {
     pub(super) const ALL: [Self; 3] = [Self::Vertex, Self::Texture, Self::Normal];
 
-    /// The word its lines begin with.
+    /// The keyword of its lines.
     pub(super) const fn key(self) -> &'static str {
         ["v", "vt", "vn"][self as usize]
     }
 
-    /// How many of its numbers are used.
+    /// How many of its numbers are read.
     pub(super) const fn dimensions(self) -> usize {
         [3, 2, 3][self as usize]
     }
@@ -188,7 +188,7 @@ impl ObjAttribute {
         ["vertex", "texture coordinate", "normal"][self as usize]
     }
 
-    /// The largest magnitude of its numbers.
+    /// Greatest magnitude of its numbers.
     pub(super) const fn limit(self) -> f32 {
         [LARGEST_COORDINATE, f32::MAX, f32::MAX][self as usize]
     }
@@ -202,7 +202,7 @@ impl ObjAttribute {
     }
 }
 
-/// "no vertices", "only 1 vertex", "only 4 vertices".
+/// Formats a count: "no vertices", "only 1 vertex", "only 4 vertices".
 struct Count(usize, ObjAttribute);
 
 impl Display for Count {
@@ -215,7 +215,7 @@ impl Display for Count {
     }
 }
 
-/// [`Count`] with its verb: "only 1 vertex stands", "only 4 vertices stand".
+/// Formats a [`Count`] with a verb: "only 1 vertex stands", "only 4 vertices stand".
 struct Standing(usize, ObjAttribute);
 
 impl Display for Standing {
@@ -224,7 +224,7 @@ impl Display for Standing {
     }
 }
 
-/// "(1, NaN, 2)".
+/// Formats a tuple: "(1, NaN, 2)".
 struct Tuple<'a>(&'a [f32]);
 
 impl Display for Tuple<'_> {
@@ -236,8 +236,8 @@ impl Display for Tuple<'_> {
     }
 }
 
-/// A word of the file for a message: at most 40 characters of it. Bytes that are not UTF-8 are the
-/// problem themselves; `key` says in what line.
+/// A word of the file for a message, shortened to 40 characters. If it is not UTF-8, that is the
+/// error: [`ObjProblem::NotText`], for a line with the keyword `key`.
 pub(super) fn excerpt(key: &'static str, word: &[u8]) -> Result<String, ObjProblem> {
     match str::from_utf8(word) {
         Ok(text) if text.chars().count() > 40 => Ok(text.chars().take(39).chain(['…']).collect()),

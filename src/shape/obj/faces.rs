@@ -1,39 +1,42 @@
-//! [`Faces`]: the `f` lines, as triangles of checked indices.
+//! [`Faces`]: the parser of `f` lines, which yields triangles with validated indices.
 
 use super::error::{ObjAttribute, ObjProblem, excerpt};
 use super::lines::is_blank;
 
-/// Stands for the texture coordinate or normal that a corner does not name.
+/// Marks a corner without a texture coordinate or without a normal.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// The triangles of all faces: polygons are cut into fans around their first corner, as tobj does.
+/// The triangles of all faces. Polygons are triangulated as fans around their first corner, as tobj
+/// does.
 ///
-/// Every index counts from 0 and is in range once [`Faces::finish`] has been called.
+/// Indices count from 0. They are known to be in range once [`Faces::finish`] has succeeded.
 #[derive(Default)]
 pub(super) struct Faces {
-    /// The vertices of each triangle.
+    /// Vertex indices of each triangle.
     pub vertices: Vec<[u32; 3]>,
-    /// Texture coordinates by corner, or [`NONE`]; empty as long as no corner names one.
+    /// Texture coordinate indices of each triangle, or [`NONE`]. Empty until a corner has one.
     pub textures: Vec<[u32; 3]>,
-    /// Normals by corner, or [`NONE`]; empty as long as no corner names one.
+    /// Normal indices of each triangle, or [`NONE`]. Empty until a corner has one.
     pub normals: Vec<[u32; 3]>,
-    /// The corners of the face at hand: vertex, texture coordinate, normal.
+    /// Scratch: the corners of the current face, as vertex, texture coordinate and normal.
     corners: Vec<[u32; 3]>,
-    /// The indices that were out of range at their own line, each the highest so far of its kind.
-    ahead: Vec<Ahead>,
+    /// References to elements after the face, to be checked at the end. Of each kind, only those
+    /// that exceed all earlier ones.
+    forward: Vec<ForwardReference>,
+    /// The highest index among these, by kind.
     highest: [i64; 3],
 }
 
-/// A reference to something that has not been read yet.
-struct Ahead {
+/// A reference to an element that was not read yet.
+struct ForwardReference {
     attribute: ObjAttribute,
     index: i64,
     line: u64,
 }
 
 impl Faces {
-    /// Takes the face on `line` in. `text` is what follows the `f`, and `counts` says how many
-    /// vertices, texture coordinates and normals stand above it.
+    /// Parses the face on `line`. `text` is what follows the `f`. `counts` are the numbers of
+    /// vertices, texture coordinates and normals above it.
     pub fn add(&mut self, text: &[u8], line: u64, counts: [usize; 3]) -> Result<(), ObjProblem> {
         self.corners.clear();
         let mut at = 0;
@@ -56,18 +59,18 @@ impl Faces {
         Ok(())
     }
 
-    /// Checks what could not be checked before all was read; `counts` is for the whole file. The
-    /// problem comes with its line.
+    /// Validates forward references. `counts` are the totals of the file. An error comes with its
+    /// line.
     pub fn finish(&mut self, counts: [usize; 3]) -> Result<(), (u64, ObjProblem)> {
-        // OBJ lets faces refer to what comes later, and tobj accepts it.
-        for &Ahead { attribute, index, line } in &self.ahead {
+        // OBJ allows forward references, and tobj accepts them.
+        for &ForwardReference { attribute, index, line } in &self.forward {
             let count = counts[attribute as usize];
             if index > count as i64 {
                 return Err((line, ObjProblem::BeyondEnd { attribute, index, count }));
             }
         }
 
-        // Triangles after the last one that names any.
+        // Pads for the triangles after the last one with texture coordinates or normals.
         for named in [&mut self.textures, &mut self.normals] {
             if !named.is_empty() {
                 named.resize(self.vertices.len(), [NONE; 3]);
@@ -76,7 +79,7 @@ impl Faces {
         Ok(())
     }
 
-    /// Reads one corner from the beginning of `text`. Returns it with its length in bytes.
+    /// Parses one corner at the start of `text`. Returns it with its length in bytes.
     #[inline]
     fn corner(
         &mut self,
@@ -93,7 +96,7 @@ impl Faces {
                 Some(index) => {
                     corner[attribute as usize] = self.resolve(attribute, index, line, counts)?;
                 }
-                // What is empty is not named, but a vertex has to be.
+                // An empty field means no index; only the vertex is mandatory.
                 None if length == 0 && attribute != ObjAttribute::Vertex => {}
                 None => return Err(bad_corner(text)),
             }
@@ -106,7 +109,7 @@ impl Faces {
         Ok((corner, at))
     }
 
-    /// Turns an index of the file into one that counts from 0.
+    /// Converts an index of the file to one that counts from 0.
     #[inline]
     fn resolve(
         &mut self,
@@ -119,9 +122,9 @@ impl Faces {
         if index > 0 {
             if index > count as i64 && index > self.highest[attribute as usize] {
                 self.highest[attribute as usize] = index;
-                self.ahead.push(Ahead { attribute, index, line });
+                self.forward.push(ForwardReference { attribute, index, line });
             }
-            // Where this cuts bits off, `finish` reports the index: no count is that high.
+            // The cast may truncate, but then `finish` reports the index: no count is that high.
             Ok((index - 1) as u32)
         } else if index == 0 {
             Err(ObjProblem::IndexZero { attribute })
@@ -133,7 +136,7 @@ impl Faces {
     }
 }
 
-/// Pushes the corners of a triangle if it or one before it names anything.
+/// Appends a triangle's indices, unless no triangle so far has any.
 #[inline]
 fn push_named(named: &mut Vec<[u32; 3]>, triangle: usize, corners: [u32; 3]) {
     if !named.is_empty() {
@@ -144,8 +147,8 @@ fn push_named(named: &mut Vec<[u32; 3]>, triangle: usize, corners: [u32; 3]) {
     }
 }
 
-/// Reads a whole number with an optional sign. Returns it with its length in bytes; `None` if there
-/// is none, or if it has more than 18 digits, which no index needs.
+/// Parses an integer with an optional sign. Returns it with its length in bytes. `None` if there is
+/// none, or if it has more than 18 digits, which no valid index has.
 #[inline]
 fn integer(text: &[u8]) -> (Option<i64>, usize) {
     let sign = usize::from(matches!(text.first(), Some(b'-' | b'+')));

@@ -1,42 +1,46 @@
-//! [`Feed`]: what tobj gets to read.
+//! [`Feed`]: the filter between an OBJ file and tobj.
 
 use std::io::{self, BufRead, ErrorKind, Read, Write};
 
 use super::error::{ObjAttribute, ObjProblem, excerpt};
 use super::faces::Faces;
+use super::line_table::LineTable;
 use super::lines::{LogicalLines, is_blank};
-use super::places::Places;
 
-/// How many corners the faces that close the feed have, but for the last one. A few at a time: tobj
-/// looks every corner up in a hash table of its object, and small ones are fast.
+/// Corners in each closing face of the feed; the last may have fewer. Small faces are faster,
+/// because tobj looks each corner up in a hash table of its object.
 pub(super) const CLOSING_CORNERS: usize = 1024;
 
-/// Stands between the file and tobj.
+/// A filter between the file and tobj, which reads it in place of the file.
 ///
-/// It passes `v`, `vt` and `vn` lines on, one at a time and cut after the numbers that count, so
-/// that tobj reads the numbers. It keeps the `f` lines for itself, because each index has to be
-/// checked at its own line, and because tobj numbers vertices anew by hashing every corner. It
-/// drops everything else: names, materials, points, lines, curves.
+/// - `v`, `vt` and `vn` lines pass, one at a time, truncated to the numbers that are used. tobj
+///   parses the numbers.
+/// - `f` lines are parsed here, by [`Faces`]. Errors in indices need the line, and tobj would
+///   renumber vertices by hashing each corner.
+/// - All other lines are dropped: names, materials, points, lines, curves.
 ///
-/// tobj returns only what some face refers to, in the order of first use. So the feed ends with
-/// faces of its own, each an object, that refer to everything once, in the order of the file.
+/// tobj returns only the elements that faces refer to, in order of first use. So the feed ends with
+/// closing faces of its own, which refer to each element once, in the order of the file. Each is an
+/// object by itself.
 pub(super) struct Feed<R> {
     lines: LogicalLines<R>,
     /// The faces of the file.
     pub faces: Faces,
-    /// Where the vertices, texture coordinates and normals stand.
-    pub places: [Places; 3],
-    /// The line that tobj is reading, how much of it it has read, and its place in the file.
+    /// The lines of vertices, texture coordinates and normals.
+    pub line_tables: [LineTable; 3],
+    /// The text that tobj is reading.
     out: Vec<u8>,
+    /// How many bytes of `out` tobj has read.
     taken: usize,
+    /// Kind and line number of the line in `out`.
     origin: (ObjAttribute, u64),
-    /// The corner with which the closing faces go on; `None` before the file's end.
+    /// First corner of the next closing face; `None` before the end of the file.
     closing: Option<usize>,
-    /// What stopped the feed: tobj itself keeps only that something did.
+    /// The error that ended the feed; tobj only learns that there was one.
     failure: Option<Failure>,
 }
 
-/// What stopped the feed.
+/// Why reading ended.
 pub(super) enum Failure {
     Io(io::Error),
     Line(u64, ObjProblem),
@@ -49,7 +53,7 @@ impl<R: BufRead> Feed<R> {
         Self {
             lines: LogicalLines::new(input),
             faces: Faces::default(),
-            places: Default::default(),
+            line_tables: Default::default(),
             out: Vec::new(),
             taken: 0,
             origin: (ObjAttribute::Vertex, 0),
@@ -58,19 +62,20 @@ impl<R: BufRead> Feed<R> {
         }
     }
 
-    /// How many vertices, texture coordinates and normals were read.
+    /// The numbers of vertices, texture coordinates and normals read so far.
     pub fn counts(&self) -> [usize; 3] {
-        self.places.each_ref().map(Places::count)
+        self.line_tables.each_ref().map(LineTable::count)
     }
 
-    /// Why tobj gave up: what stopped the feed, or else a bad number in the line it read last.
+    /// The cause of tobj's error: that of the feed, or else an invalid number in the line read
+    /// last.
     pub fn into_failure(self, error: tobj::LoadError) -> Failure {
         if let Some(failure) = self.failure {
             return failure;
         }
         let (attribute, line) = self.origin;
         let is_number = |word: &str| word.parse::<f32>().is_ok();
-        // What was sent is ASCII.
+        // The feed sends only ASCII.
         let sent = str::from_utf8(&self.out).unwrap_or_default();
         match sent.split_whitespace().skip(1).find(|word| !is_number(word)) {
             Some(word) => Failure::Line(line, bad_number(attribute, word.as_bytes())),
@@ -78,7 +83,7 @@ impl<R: BufRead> Feed<R> {
         }
     }
 
-    /// Fills `out` with the next line for tobj, or leaves it empty at the end.
+    /// Fills `out` with the next line for tobj; leaves it empty at the end.
     fn advance(&mut self) -> Result<(), Failure> {
         self.out.clear();
         self.taken = 0;
@@ -105,7 +110,7 @@ impl<R: BufRead> Feed<R> {
                 _ => continue,
             };
             cut(attribute, rest, &mut self.out).map_err(|p| Failure::Line(number, p))?;
-            self.places[attribute as usize].push(number);
+            self.line_tables[attribute as usize].push(number);
             self.origin = (attribute, number);
             return Ok(());
         }
@@ -113,7 +118,7 @@ impl<R: BufRead> Feed<R> {
         Ok(())
     }
 
-    /// Checks what can be checked once the whole file was read.
+    /// Validates what needs the whole file.
     fn finish(&mut self, counts: [usize; 3]) -> Result<(), Failure> {
         self.faces.finish(counts).map_err(|(line, problem)| Failure::Line(line, problem))?;
         if self.faces.vertices.is_empty() {
@@ -133,8 +138,8 @@ impl<R: BufRead> Feed<R> {
         Ok(())
     }
 
-    /// Writes the next closing face: corner `i` refers to the vertex, the texture coordinate and the
-    /// normal `i`, or to the last one where there are fewer.
+    /// Writes the next closing face. Corner `i` refers to vertex, texture coordinate and normal
+    /// `i`, or to the last one of a shorter list.
     fn close(&mut self) {
         let [vertices, textures, normals] = self.counts();
         let start = self.closing.unwrap_or_default();
@@ -144,7 +149,7 @@ impl<R: BufRead> Feed<R> {
         }
         for i in start + 1..=end {
             let (v, vt, vn) = (i.min(vertices), i.min(textures), i.min(normals));
-            // Writing to a Vec can't fail.
+            // Writing to a Vec never fails.
             let _ = match (textures > 0, normals > 0) {
                 (false, false) => write!(self.out, " {v}"),
                 (true, false) => write!(self.out, " {v}/{vt}"),
@@ -183,7 +188,7 @@ impl<R: BufRead> Read for Feed<R> {
     }
 }
 
-/// The first word of a line, and what follows it.
+/// Splits a line into its first word and the rest.
 #[inline]
 fn split_word(line: &[u8]) -> (&[u8], &[u8]) {
     let start = line.iter().position(|&b| !is_blank(b)).unwrap_or(line.len());
@@ -191,8 +196,8 @@ fn split_word(line: &[u8]) -> (&[u8], &[u8]) {
     line.split_at(line.iter().position(|&b| is_blank(b)).unwrap_or(line.len()))
 }
 
-/// Writes the line for tobj: the numbers that count of the `rest` of a line, without those that may
-/// follow (the w or the colour of a vertex, the depth of a texture coordinate).
+/// Writes a line for tobj: the keyword and the numbers that are used. Further ones are dropped: w
+/// or the colour of a vertex, the depth of a texture coordinate.
 #[inline]
 fn cut(attribute: ObjAttribute, rest: &[u8], out: &mut Vec<u8>) -> Result<(), ObjProblem> {
     let expected = attribute.dimensions();
@@ -203,7 +208,7 @@ fn cut(attribute: ObjAttribute, rest: &[u8], out: &mut Vec<u8>) -> Result<(), Ob
         end += rest[end..].iter().position(|&b| is_blank(b)).unwrap_or(rest.len() - end);
         found += 1;
     }
-    // Tobj would read some of what is not ASCII as blanks.
+    // tobj would take some non-ASCII characters for blanks.
     if !rest[..end].is_ascii() {
         let word = rest.split(|&b| is_blank(b)).find(|word| !word.is_ascii());
         return Err(bad_number(attribute, word.unwrap_or_default()));
@@ -212,7 +217,7 @@ fn cut(attribute: ObjAttribute, rest: &[u8], out: &mut Vec<u8>) -> Result<(), Ob
     out.extend_from_slice(&rest[..end]);
     match (attribute, found) {
         _ if found == expected => {}
-        // A one-dimensional texture.
+        // A one-dimensional texture coordinate.
         (ObjAttribute::Texture, 1) => out.extend_from_slice(b" 0"),
         _ => return Err(ObjProblem::TooFewNumbers { attribute, found, expected }),
     }

@@ -1,28 +1,29 @@
-//! [`LogicalLines`]: the lines of an OBJ file, without comments, line ends and continuations.
+//! [`LogicalLines`]: splits an OBJ file into logical lines, without comments and continuations.
 
 use std::io::{self, BufRead};
 
-/// Whether `byte` separates words. For ASCII this is what `str::split_whitespace` does.
+/// Whether `byte` separates words: the ASCII part of `str::split_whitespace`.
 pub(super) const fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | 9..=13)
 }
 
-/// Reads bytes and hands out lines that hold only what counts.
+/// Splits bytes into logical lines.
 ///
-/// A line ends in LF, CR LF, a lone CR or the end of the input. A UTF-8 byte order mark is skipped.
-/// A comment goes from `#` to the end of its line, whatever bytes it holds; but a dot before the `#`
-/// makes it part of a number such as `1.#INF`, which is how old C libraries write infinity. A line whose last
-/// character before the comment is a backslash goes on with the next one; a backslash inside a
-/// comment continues nothing, because there it ends Windows paths.
+/// - A line ends in LF, CR LF, a lone CR or the end of the input. A UTF-8 byte order mark is
+///   skipped.
+/// - A comment runs from `#` to the end of its line and may hold any bytes. A `#` after a dot is no
+///   comment but part of a number such as `1.#INF`, which is how old C libraries write infinity.
+/// - A backslash at the end of a line, before any comment, continues it on the next line. A
+///   backslash within a comment does not: there it is usually the end of a Windows path.
 pub(super) struct LogicalLines<R> {
     input: R,
     /// The input up to a line feed: one line, or several that end in a lone CR.
     chunk: Vec<u8>,
-    /// Where the part of `chunk` begins that was not handed out.
+    /// Start of the unread part of `chunk`.
     at: usize,
-    /// A line that had to be cut or put together.
+    /// A logical line that is not a contiguous part of `chunk`.
     edited: Vec<u8>,
-    /// How many physical lines were begun.
+    /// Number of physical lines read.
     begun: u64,
 }
 
@@ -31,14 +32,16 @@ impl<R: BufRead> LogicalLines<R> {
         Self { input, chunk: Vec::new(), at: 0, edited: Vec::new(), begun: 0 }
     }
 
-    /// The next line and its number, counted from 1, or `None` at the end of the input.
+    /// The next logical line and the number of its first physical line, counted from 1. `None` at
+    /// the end of the input.
     pub fn next(&mut self) -> io::Result<Option<(u64, &[u8])>> {
         if self.at == self.chunk.len() && !self.read_chunk()? {
             return Ok(None);
         }
         let number = self.begun + 1;
 
-        // Nearly every line is plain: it is handed out as it lies in the chunk.
+        // Fast path for nearly every line: no comment, continuation or CR, so it is returned
+        // without a copy.
         let text = without_line_end(&self.chunk[self.at..]);
         if !text.iter().fold(false, |found, &b| found | matches!(b, b'\r' | b'#' | b'\\')) {
             let range = self.at..self.at + text.len();
@@ -56,7 +59,7 @@ impl<R: BufRead> LogicalLines<R> {
         Ok(Some((number, &self.edited)))
     }
 
-    /// Replaces the chunk. `false` at the end of the input.
+    /// Reads the next chunk. `false` at the end of the input.
     fn read_chunk(&mut self) -> io::Result<bool> {
         self.chunk.clear();
         self.at = 0;
@@ -67,7 +70,7 @@ impl<R: BufRead> LogicalLines<R> {
         Ok(!self.chunk.is_empty())
     }
 
-    /// Moves the next physical line of the chunk into `edited`. Says whether it goes on.
+    /// Appends the next physical line of the chunk to `edited`. Returns whether it is continued.
     fn edit_physical_line(&mut self) -> bool {
         self.begun += 1;
         let rest = &self.chunk[self.at..];
@@ -99,7 +102,7 @@ fn without_line_end(chunk: &[u8]) -> &[u8] {
 mod tests {
     use super::*;
 
-    /// Every line with its number, read through a buffer of three bytes.
+    /// All lines with their numbers, read through a buffer of three bytes.
     fn lines(text: &[u8]) -> Vec<(u64, String)> {
         let mut lines = LogicalLines::new(io::BufReader::with_capacity(3, text));
         let mut all = Vec::new();
@@ -132,7 +135,7 @@ mod tests {
         assert_eq!(lines(b"v 1.#IND #\n.#"), owned(&[(1, "v 1.#IND "), (2, ".#")]));
         assert_eq!(lines(b"a\\\nb \\ \r\nc\nd"), owned(&[(1, "a b  c"), (4, "d")]));
         assert_eq!(lines(b"a \\ # b\nc"), owned(&[(1, "a  c")]));
-        // A backslash in a comment, within a line and at the very end.
+        // A backslash in a comment, within a line, and at the very end.
         assert_eq!(lines(b"# C:\\a\\\nb\\c\nd\\"), owned(&[(1, ""), (2, "b\\c"), (3, "d ")]));
     }
 }

@@ -1,47 +1,29 @@
-//! Reading triangle meshes from Wavefront OBJ.
+//! Reader of Wavefront OBJ files.
 
+mod attributes;
 mod error;
 mod faces;
 mod feed;
+mod line_table;
 mod lines;
 mod merge;
-mod numbers;
-mod places;
+mod report;
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, ErrorKind};
 use std::path::Path;
 
 pub use error::{ObjAttribute, ObjError, ObjProblem};
+pub use report::{ObjMesh, ObjReport};
 
-use super::TriangleMesh;
+use attributes::Attributes;
 use feed::{Failure, Feed};
-use numbers::Numbers;
 
-/// A mesh that was read from an OBJ file.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ObjMesh {
-    /// The mesh. It has at least one triangle and passes [`TriangleMesh::check`].
-    pub mesh: TriangleMesh,
-    /// What was noticed on the way.
-    pub report: ObjReport,
-}
-
-/// What is odd about a mesh, though not wrong.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct ObjReport {
-    /// Triangles without area: corners coincide or lie on one line. They are in the mesh.
-    pub degenerate_triangles: usize,
-    /// Vertices of the file to which no face refers. They are in the mesh.
-    pub unused_vertices: usize,
-}
-
-/// Reads the OBJ file at `path` as one mesh. See [`parse_obj`].
+/// Reads the OBJ file at `path` as one mesh. [`parse_obj`] says how.
 ///
 /// # Errors
-/// If there is no file, if it can't be read, or for what [`parse_obj`] refuses. The messages name
-/// the file by `path`.
+/// If the file does not exist or cannot be read, and all errors of [`parse_obj`]. Messages name the
+/// file by `path`.
 pub fn read_obj(path: &Path) -> Result<ObjMesh, ObjError> {
     let name = path.display().to_string();
     let unreadable = |source: std::io::Error| match source.kind() {
@@ -56,21 +38,21 @@ pub fn read_obj(path: &Path) -> Result<ObjMesh, ObjError> {
     }
 }
 
-/// Reads OBJ text as one mesh. `name` stands for the file in messages.
+/// Reads OBJ text as one mesh. `name` is the name of the file in messages.
 ///
-/// What counts are the lines `v`, `vt`, `vn` and `f`: all objects and groups become one mesh, and
-/// names, materials, points, lines and curves are passed over, in whatever encoding they are.
-/// - Polygons are cut into fans around their first corner.
-/// - Indices count from 1, or backwards from the face if they are negative. A face may refer to
-///   what the file lists only after it.
-/// - Vertex i of the file is vertex i of the mesh. Where corners at a vertex differ in texture
-///   coordinate or normal, copies of the vertex follow after the last one of the file.
-/// - Normals are scaled to unit length. A corner with the normal zero or without one gets
-///   [`Vec3::ZERO`](glam::Vec3::ZERO), and a corner without texture coordinates [`Vec2::ZERO`](glam::Vec2::ZERO). If no corner of the
-///   file has any, the mesh has none.
-/// - Numbers beyond the third of a vertex (w, or a colour) and beyond the second of a texture
-///   coordinate are passed over; a missing second one is 0.
-/// - Lines end in LF, CR LF or CR. A comment may end every line, a backslash continues it, and the
+/// Only `v`, `vt`, `vn` and `f` lines are used. All objects and groups become one mesh. Names,
+/// materials, points, lines and curves are ignored, in whatever encoding they are.
+/// - Polygons are triangulated as fans around their first corner.
+/// - Indices count from 1, or if negative, backwards from the face. A face may refer to elements
+///   that follow it.
+/// - Vertex i of the file is vertex i of the mesh. If corners at a vertex differ in texture
+///   coordinate or normal, copies of the vertex are appended after the last one of the file.
+/// - Normals are scaled to unit length. A corner without a normal, or with a zero one, gets
+///   [`Vec3::ZERO`](glam::Vec3::ZERO). A corner without texture coordinates gets
+///   [`Vec2::ZERO`](glam::Vec2::ZERO). If no corner of the file has any, the mesh has none.
+/// - Numbers after the third of a vertex (w, or a colour) and after the second of a texture
+///   coordinate are ignored. A missing second one is 0.
+/// - Lines end in LF, CR LF or CR. A comment may end any line, a backslash continues it, and the
 ///   text may begin with a UTF-8 byte order mark.
 ///
 /// ```
@@ -84,9 +66,9 @@ pub fn read_obj(path: &Path) -> Result<ObjMesh, ObjError> {
 /// ```
 ///
 /// # Errors
-/// If reading fails; if a line can't be understood, refers to what is not there, or holds a number
-/// that is not finite; if there is no face; if there are more vertices or triangles than a `u32`
-/// can number.
+/// If reading fails; if a line is malformed, refers to an element that does not exist, or has a
+/// number that is not finite or out of range; if there is no face; if there are more vertices or
+/// triangles than a `u32` can index.
 pub fn parse_obj(name: &str, reader: impl BufRead) -> Result<ObjMesh, ObjError> {
     read(reader).map_err(|failure| {
         let name = name.to_owned();
@@ -100,17 +82,18 @@ pub fn parse_obj(name: &str, reader: impl BufRead) -> Result<ObjMesh, ObjError> 
 }
 
 fn read(reader: impl BufRead) -> Result<ObjMesh, Failure> {
-    // Not triangulated, points and lines kept: the closing faces of the feed come back as they are.
+    // Without tobj's triangulation, and with points and lines kept: the closing faces of the feed
+    // then come back as they were sent.
     let options = tobj::LoadOptions::default();
     let mut feed = Feed::new(reader);
     let models = match tobj::load_obj_buf(&mut feed, &options, |_| Ok(Default::default())) {
         Ok((models, _)) => models,
         Err(error) => return Err(feed.into_failure(error)),
     };
-    let numbers = Numbers::collect(&models, &feed.places)
+    let attributes = Attributes::collect(&models, &feed.line_tables)
         .map_err(|(line, problem)| Failure::Line(line, problem))?;
     drop(models);
-    let read = merge::merge(feed.faces, numbers).ok_or(Failure::TooMany("vertices"))?;
+    let read = merge::merge(feed.faces, attributes).ok_or(Failure::TooMany("vertices"))?;
     debug_assert_eq!(read.mesh.check(), Ok(()));
     Ok(read)
 }

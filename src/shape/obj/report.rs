@@ -1,0 +1,23 @@
+//! [`ObjMesh`]: the result of reading an OBJ file, and [`ObjReport`].
+
+use crate::shape::mesh::TriangleMesh;
+
+/// A mesh read from an OBJ file.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct ObjMesh {
+    /// The mesh. It has at least one triangle, and passes [`TriangleMesh::check`].
+    pub mesh: TriangleMesh,
+    /// What is unusual about it.
+    pub report: ObjReport,
+}
+
+/// Counts of what is valid but unusual in an OBJ file, and often a sign of a mistake.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct ObjReport {
+    /// Triangles without area: corners coincide or are collinear. They are part of the mesh.
+    pub degenerate_triangles: usize,
+    /// Vertices of the file that no face refers to. They are part of the mesh.
+    pub unused_vertices: usize,
+}
