@@ -24,6 +24,7 @@ pub mod bxdf;
 mod camera;
 pub mod film;
 pub mod geometry;
+pub mod image;
 pub mod integrator;
 pub mod interaction;
 pub mod light;

@@ -2,7 +2,8 @@
 
 use glam::UVec2;
 
-use super::{Encoding, Image};
+use crate::image::{Encoding, Image};
+use crate::spectrum::Spectrum;
 
 /// How far an image is from a reference, over all bands of all pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,7 +61,7 @@ impl Errors {
     pub fn between(image: &Image, reference: &Image) -> Result<Self, CompareError> {
         check(image, reference)?;
         let bands = |image: &Image| {
-            let bands = |pixel: &crate::Spectrum| pixel.to_array().map(f64::from);
+            let bands = |pixel: &Spectrum| pixel.to_array().map(f64::from);
             image.pixels.iter().flat_map(bands).collect::<Vec<f64>>()
         };
         let (a, b) = (bands(image), bands(reference));

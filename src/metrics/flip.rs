@@ -8,9 +8,10 @@ use std::f32::consts::PI;
 
 use glam::{Mat3, UVec2, Vec3};
 
+use super::CompareError;
 use super::errors::check;
 use super::plane::Plane;
-use super::{CompareError, Encoding, Image};
+use crate::image::{Display, Encoding, Image};
 
 /// How the images are looked at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +56,12 @@ pub fn flip(
     let (test, truth, size) = (vectors(image), vectors(reference), image.size);
     if image.encoding == Encoding::Srgb {
         let linear = |pixels: Vec<Vec3>| -> Vec<Vec3> {
-            pixels.into_iter().map(|p| p.to_array().map(from_srgb).into()).collect()
+            pixels
+                .into_iter()
+                .map(|p| {
+                    p.to_array().map(|code| Display::Srgb.decode(f64::from(code)) as f32).into()
+                })
+                .collect()
         };
         return Ok((difference(size, &linear(test), &linear(truth), &filters), None));
     }
@@ -263,8 +269,4 @@ fn hunt_lab(rgb: Vec3) -> Vec3 {
 fn hyab(a: Vec3, b: Vec3) -> f32 {
     let d = a - b;
     d.x.abs() + d.y.hypot(d.z)
-}
-
-fn from_srgb(code: f32) -> f32 {
-    if code <= 0.04045 { code / 12.92 } else { ((code + 0.055) / 1.055).powf(2.4) }
 }

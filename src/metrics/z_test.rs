@@ -2,8 +2,9 @@
 
 use glam::UVec2;
 
+use super::CompareError;
 use super::errors::check;
-use super::{CompareError, Image};
+use crate::image::Image;
 
 /// What the test found.
 #[derive(Clone, Debug, PartialEq)]

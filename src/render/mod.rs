@@ -11,7 +11,8 @@ use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use crate::film::{Film, FilmContents, FilmError, Picture, Variance};
+use crate::film::{Film, FilmContents, FilmError, Variance};
+use crate::image::Picture;
 use crate::integrator::{self, Counters, Integrator};
 use crate::sampling::{
     BlueNoiseSampler, IndependentSampler, Sampler, SobolSampler, StratifiedSampler,

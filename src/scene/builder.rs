@@ -9,7 +9,8 @@ use super::{Emission, FilmSettings, IntegratorSettings, SamplerSettings, Scene, 
 use crate::accel::Accel;
 use crate::bxdf::LambertianReflection;
 use crate::camera::{Camera, CameraError, CameraSettings};
-use crate::film::{Display, Filter, FilterError, FilterSampler, Window};
+use crate::film::{Filter, FilterError, FilterSampler};
+use crate::image::{Display, Window};
 use crate::light::{AreaLight, KnownLight, Light};
 use crate::material::{Material, MatteMaterial};
 use crate::shape::{MeshError, TriangleMesh};

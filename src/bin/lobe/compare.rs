@@ -4,8 +4,8 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use clap::Args;
-use lobe::film::write_file;
-use lobe::metrics::{ErrorMap, Errors, Exposures, Image, Viewing, ZTest, z_test};
+use lobe::image::{Image, write_file};
+use lobe::metrics::{ErrorMap, Errors, Exposures, Viewing, ZTest, z_test};
 
 use crate::summary::Summary;
 

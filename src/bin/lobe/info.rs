@@ -3,7 +3,8 @@
 use std::error::Error;
 
 use clap::Args;
-use lobe::film::{Display, Filter};
+use lobe::film::Filter;
+use lobe::image::Display;
 use lobe::scene::{
     IntegratorSettings, LightStrategy, LoadedScene, SamplerKind, SamplerSettings, Scene,
 };

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use lobe::film::{Display, Metadata, OutputError, Picture, check_writable, write_exr, write_png};
+use lobe::image::{Display, Metadata, Picture, WriteError, check_writable, write_exr, write_png};
 
 /// A picture's file, of the format that its name ends in.
 pub struct Output {
@@ -55,7 +55,7 @@ impl Output {
         picture: &Picture,
         display: Display,
         metadata: &Metadata,
-    ) -> Result<(), OutputError> {
+    ) -> Result<(), WriteError> {
         match self.format {
             Format::Png => write_png(&self.path, picture, display, metadata),
             Format::Exr => write_exr(&self.path, picture, metadata),

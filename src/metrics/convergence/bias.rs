@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::reference::weights;
-use super::{Pool, Reference};
+use super::{Reference, RunningMean};
+use crate::spectrum::Spectrum;
 
 /// How far the mean of a method's pictures is from the reference, beyond what noise explains.
 ///
@@ -27,10 +28,10 @@ impl Bias {
 
     /// The bias of the method whose pictures the pool has, at least two of them; together they have `part` times as many
     /// samples as the reference.
-    pub fn new(pool: &Pool, reference: &Reference, part: f64) -> Self {
+    pub fn new(pool: &RunningMean, reference: &Reference, part: f64) -> Self {
         let image = reference.image();
         let known = image.variance.iter().flatten();
-        let wide = |pixel: &crate::Spectrum| DVec3::from(pixel.to_array().map(f64::from));
+        let wide = |pixel: &Spectrum| DVec3::from(pixel.to_array().map(f64::from));
         let truth = image.pixels.iter().map(wide).zip(known.map(wide));
         let (columns, rows) = (image.size.x.div_ceil(TILE), image.size.y.div_ceil(TILE));
         let mut tiles = vec![(0.0, 0.0); (columns * rows) as usize];

@@ -2,8 +2,9 @@
 
 use std::time::Instant;
 
-use super::super::{CompareError, Errors, Image};
+use super::super::{CompareError, Errors};
 use super::{Reference, Run};
+use crate::image::Image;
 use crate::render::{RenderError, RenderOptions, Rendered, render_as};
 use crate::scene::{IntegratorSettings, SamplerSettings, Scene};
 

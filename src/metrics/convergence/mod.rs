@@ -4,7 +4,7 @@
 //!
 //! 1. A [`Reference`] from independent parts, which tell its own error.
 //! 2. For each [`Method`], number of samples and seed a [`Run`]: time and errors against the reference.
-//! 3. The mean of a method's pictures at the largest number of samples, a [`Pool`], and with it the method's
+//! 3. The mean of a method's pictures at the largest number of samples, a [`RunningMean`], and with it the method's
 //!    [`Bias`].
 //! 4. From the runs of a method its [`Curve`]: medians, quartiles, slopes; from all curves the [`front`].
 //! 5. All of it is a [`Study`], which draws the charts.
@@ -16,15 +16,15 @@
 mod bias;
 mod curve;
 mod method;
-mod pool;
 mod reference;
 mod run;
+mod running_mean;
 mod study;
 
 pub use bias::Bias;
 pub use curve::{Curve, CurvePoint, front};
 pub use method::{Method, RunError};
-pub use pool::Pool;
 pub use reference::{Distrust, Reference};
 pub use run::{ParseRunError, Run};
+pub use running_mean::RunningMean;
 pub use study::{Other, Study};

@@ -2,8 +2,8 @@
 
 use glam::{DVec3, UVec2};
 
-use super::super::{Encoding, Image};
-use super::Pool;
+use super::RunningMean;
+use crate::image::{Encoding, Image};
 
 /// A picture from independent parts, with its own error.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +31,7 @@ pub enum Distrust {
 
 impl Reference {
     /// From at least two parts, of which each pixel is finite.
-    pub fn new(pool: &Pool, size: UVec2) -> Self {
+    pub fn new(pool: &RunningMean, size: UVec2) -> Self {
         let (pixels, variance) = pool.pixels();
         let image = Image { size, pixels, variance, encoding: Encoding::Linear };
         let mut squares: Vec<f64> = pool

@@ -6,8 +6,8 @@ mod scale;
 use glam::UVec2;
 
 use super::errors::check;
-use super::{CompareError, Exposures, Image, Viewing, flip};
-use crate::film::encode_png;
+use super::{CompareError, Exposures, Viewing, flip};
+use crate::image::{Image, encode_png};
 use digits::{HEIGHT, draw, width};
 use scale::{Scale, color};
 

@@ -1,5 +1,7 @@
 //! Colours for numbers.
 
+use crate::image::Display;
+
 /// Which colours.
 #[derive(Clone, Copy)]
 pub enum Scale {
@@ -41,5 +43,5 @@ fn to_srgb([lightness, a, b]: [f32; 3]) -> [u8; 3] {
         -1.268_438 * l + 2.609_757_4 * m - 0.341_319_4 * s,
         -0.004_196_086_3 * l - 0.703_418_6 * m + 1.707_614_7 * s,
     ];
-    linear.map(|band| crate::film::Display::Srgb.code(band))
+    linear.map(|band| Display::Srgb.code(band))
 }

@@ -5,9 +5,8 @@ use std::fs::{self, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use lobe::film::{Metadata, Picture, Window, write_exr, write_file};
-use lobe::metrics::Image;
-use lobe::metrics::convergence::{Pool, Run};
+use lobe::image::{Image, Metadata, Picture, Window, write_exr, write_file};
+use lobe::metrics::convergence::{Run, RunningMean};
 
 use super::plan::Plan;
 
@@ -88,12 +87,12 @@ impl Folder {
     }
 
     /// The mean of that name; empty if nothing was added to it yet.
-    pub fn pool(&self, name: &str) -> Result<Pool, Box<dyn Error>> {
+    pub fn pool(&self, name: &str) -> Result<RunningMean, Box<dyn Error>> {
         match self.count(name) {
-            0 => Ok(Pool::default()),
+            0 => Ok(RunningMean::default()),
             count => {
                 let image = Image::read(self.mean(name, count))?;
-                Ok(Pool::from_image(&image, count))
+                Ok(RunningMean::from_image(&image, count))
             }
         }
     }
@@ -106,11 +105,16 @@ impl Folder {
 
     /// Adds a picture to the mean of that name, and gives it back as it will be read again: what follows from it
     /// does not depend on interruptions.
-    pub fn add(&self, name: &str, pool: &mut Pool, image: &Image) -> Result<(), Box<dyn Error>> {
+    pub fn add(
+        &self,
+        name: &str,
+        pool: &mut RunningMean,
+        image: &Image,
+    ) -> Result<(), Box<dyn Error>> {
         pool.add(&image.pixels);
         let (color, variance) = pool.pixels();
         let mean = Image { pixels: color.clone(), variance: variance.clone(), ..image.clone() };
-        *pool = Pool::from_image(&mean, pool.count());
+        *pool = RunningMean::from_image(&mean, pool.count());
         let (resolution, window) = (image.size, Window::full(image.size));
         let picture = Picture { resolution, window, color, variance, layers: None };
         write_exr(self.mean(name, pool.count()), &picture, &Metadata::default())?;

@@ -2,8 +2,8 @@
 
 use std::error::Error;
 
-use lobe::metrics::Image;
-use lobe::metrics::convergence::{Bias, Curve, Method, Pool, Reference, Run};
+use lobe::image::Image;
+use lobe::metrics::convergence::{Bias, Curve, Method, Reference, Run, RunningMean};
 use lobe::scene::{IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings};
 use lobe::{RenderOptions, Scene};
 
@@ -81,7 +81,7 @@ impl<'a> Bench<'a> {
                 self.folder.add(name, &mut pool, &image)?;
                 steps.done(cost.of(spp));
             }
-            Ok::<Pool, Box<dyn Error>>(pool)
+            Ok::<RunningMean, Box<dyn Error>>(pool)
         };
         let size = self.scene.film().window().size();
         let pool = truth(

@@ -15,8 +15,9 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, value_parser};
+use lobe::image::{Encoding, Image};
+use lobe::metrics::Errors;
 use lobe::metrics::convergence::{Method, Other};
-use lobe::metrics::{Encoding, Errors, Image};
 use lobe::scene::read_settings;
 use lobe::{RenderOptions, Spectrum};
 

@@ -5,11 +5,11 @@ use std::fmt::Write;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use lobe::film::{Display, encode_png};
 use lobe::glam::UVec2;
+use lobe::image::{Display, EncodeError, Image, encode_png};
 use lobe::metrics::chart::{Chart, escape};
 use lobe::metrics::convergence::{Curve, Study};
-use lobe::metrics::{ErrorMap, Errors, Image, Viewing};
+use lobe::metrics::{ErrorMap, Errors, Viewing};
 
 use super::measure::Bench;
 use super::plan::Plan;
@@ -237,6 +237,6 @@ fn table(page: &mut String, study: &Study) {
 }
 
 /// A PNG file as an address.
-fn data(size: UVec2, codes: &[u8]) -> Result<String, String> {
+fn data(size: UVec2, codes: &[u8]) -> Result<String, EncodeError> {
     Ok(format!("data:image/png;base64,{}", STANDARD.encode(encode_png(size, codes)?)))
 }

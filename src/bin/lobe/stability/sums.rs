@@ -1,8 +1,9 @@
 //! Means and variances of many samples.
 
 use lobe::Spectrum;
-use lobe::film::{Film, FilmContents, Variance, Window};
+use lobe::film::{Film, FilmContents, Variance};
 use lobe::glam::UVec2;
+use lobe::image::Window;
 
 use super::rng::Rng;
 use super::tally::{half_decades, measured, relative_error};

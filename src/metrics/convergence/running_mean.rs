@@ -1,8 +1,8 @@
-//! [`Pool`]: pictures of one scene that differ by chance alone, and their mean.
+//! [`RunningMean`]: pictures of one scene that differ by chance alone, and their mean.
 
 use glam::DVec3;
 
-use super::super::Image;
+use crate::image::Image;
 use crate::spectrum::Spectrum;
 
 /// The mean of independent pictures, and how they scatter around it.
@@ -10,14 +10,14 @@ use crate::spectrum::Spectrum;
 /// Welford 1962, "Note on a method for calculating corrected sums of squares and products", for each band of
 /// each pixel.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Pool {
+pub struct RunningMean {
     count: u32,
     mean: Vec<DVec3>,
     /// Sums of squared distances from the mean.
     squares: Vec<DVec3>,
 }
 
-impl Pool {
+impl RunningMean {
     /// How many pictures there are.
     pub fn count(&self) -> u32 {
         self.count
@@ -52,7 +52,7 @@ impl Pool {
         (mean, (self.count > 1).then(|| self.squares.iter().map(variance).collect()))
     }
 
-    /// The pool of `count` pictures whose mean and variance of the mean an image has, up to f32: what [`Pool::pixels`] gave.
+    /// The pool of `count` pictures whose mean and variance of the mean an image has, up to f32: what [`RunningMean::pixels`] gave.
     /// An image without variance is one picture.
     pub fn from_image(image: &Image, count: u32) -> Self {
         let wide = |pixel: &Spectrum| DVec3::from(pixel.to_array().map(f64::from));
