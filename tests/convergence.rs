@@ -9,7 +9,7 @@ use lobe::glam::{UVec2, Vec3};
 use lobe::integrator::{DirectIntegrator, Integrator, Wave, dimension};
 use lobe::light::SkyLight;
 use lobe::metrics::convergence::{
-    Bias, Curve, Distrust, Method, Other, Reference, Run, RunningMean, Study, front,
+    Bias, Curve, Distrust, Method, Other, Reference, Run, RunningMean, Study, pareto_front,
 };
 use lobe::render::{render_as, render_with};
 use lobe::sampling::{IndependentSampler, SampleId, Sampler};
@@ -227,7 +227,8 @@ fn curves_are_those_by_hand() {
     close(q3, 0.065_f64.sqrt());
     assert_eq!(curves[0].points[2].error, None, "below the reference's own error");
     // At 2.25 s, 2.75 s, 4.25 s; the point at 5.25 s is beaten.
-    let front: Vec<_> = front(&curves).iter().map(|(number, point)| (*number, point.spp)).collect();
+    let front: Vec<_> =
+        pareto_front(&curves).iter().map(|(number, point)| (*number, point.spp)).collect();
     assert_eq!(front, [(0, 1), (1, 1), (0, 2)]);
     close(curves[0].error_at((2.25_f64 * 4.25).sqrt()).unwrap(), 0.1);
     assert_eq!(curves[0].error_at(2.0), None);

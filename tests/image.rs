@@ -24,7 +24,8 @@ fn picture() -> Picture {
         _ => (i as f32 - 40.0) * 10_f32.powi((i % 11) as i32 - 5),
     };
     let window = Window { min: UVec2::new(3, 2), max: UVec2::new(8, 9) };
-    let pixels = |salt| (0..35).map(move |i| [0, 1, 2].map(|c: u32| value(3 * i + c + salt)).into());
+    let pixels =
+        |salt| (0..35).map(move |i| [0, 1, 2].map(|c: u32| value(3 * i + c + salt)).into());
     Picture {
         resolution: UVec2::new(20, 50),
         window,

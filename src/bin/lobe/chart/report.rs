@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use lobe::metrics::convergence::{Bias, Other, Study, front};
+use lobe::metrics::convergence::{Bias, Other, Study, pareto_front};
 
 use super::measure::{Bench, Measured};
 use super::page;
@@ -51,9 +51,9 @@ pub fn write(
         });
         summary.add("method", format!("{}: {last}, {slope}", curve.method));
     }
-    for (number, point) in front(&study.curves) {
+    for (index, point) in pareto_front(&study.curves) {
         let error = point.error.map_or(0.0, |error| error[1]);
-        let name = &study.curves[number].method;
+        let name = &study.curves[index].method;
         summary.add(
             "best",
             format!("{:.3} s: {name}, {} samples, {error:.3e}", point.time(), point.spp),
