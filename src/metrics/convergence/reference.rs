@@ -18,7 +18,7 @@ pub struct Reference {
 pub enum Distrust {
     /// Most of the squared error is in a few pixels. Those have rare bright samples, and more of them may be missing.
     #[error(
-        "the reference has not converged: {:.0} % of its squared error lie in one pixel in a thousand, the worst at ({}, {}): more of it may be unseen",
+        "the reference has not converged: {:.0} % of its squared error are in one pixel of a thousand, the worst at ({}, {}): rare bright samples may be missing",
         100.0 * .share, .worst.x, .worst.y
     )]
     Rare {
