@@ -9,7 +9,8 @@ use lobe::metrics::chart::{Axis, Chart, Line, Point, Scale, escape};
 use super::folder::Folder;
 use super::page::STYLE;
 use super::steps::Steps;
-use crate::stability::{ALL, Sweep, all};
+use crate::stability::sweep::{Method, Sweep};
+use crate::stability::{ALL, all};
 use crate::summary::Summary;
 
 /// Measures all sweeps, and writes their charts, a table of all numbers and a page.
@@ -83,7 +84,7 @@ fn chart(sweep: &Sweep) -> Chart {
     // The style of ours in all charts.
     const OURS: usize = 2;
     let mut usual = [1, 0, 3, 4, 5].into_iter().cycle();
-    let line = |method: &crate::stability::Method| Line {
+    let line = |method: &Method| Line {
         name: method.name.into(),
         style: if method.is_ours { OURS } else { usual.next().unwrap_or(0) },
         is_loose: false,
