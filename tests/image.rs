@@ -39,7 +39,8 @@ fn bits(pixels: &[Spectrum]) -> Vec<u32> {
     pixels.iter().flat_map(|pixel| pixel.to_array()).map(f32::to_bits).collect()
 }
 
-/// Caught: rows of PFM from the top down; big-endian numbers; `Y` looked for before `R`; no variance.
+/// Caught: PFM rows from the top down; big-endian numbers; bands exchanged; a band of the variance read twice; a PFM
+/// picture that is not checked.
 #[test]
 fn linear_formats_come_back_bit_for_bit() {
     let picture = picture();
@@ -58,7 +59,7 @@ fn linear_formats_come_back_bit_for_bit() {
     assert!(message.contains("its window has 35 pixels, but 0 values of colour"), "{message}");
 }
 
-/// Caught: the largest code taken for 256; the window's rows as columns.
+/// Caught: the largest code taken for 256; columns and rows exchanged.
 #[test]
 fn png_comes_back_as_its_codes() {
     let png = path("x.png");
@@ -106,7 +107,7 @@ fn pfm_of_other_programs() {
     assert_eq!(image.pixels, [3.0, 4.0, 1.0, 2.0].map(Spectrum::splat));
 }
 
-/// Caught: a product of the sides that leaves 64 bits; each check taken away.
+/// Caught: a product of the sides that leaves 64 bits; a side of 0; any magic word; colours not looked for.
 #[test]
 fn what_is_no_image_is_refused() {
     let cases: [(&str, &[u8], &str); 9] = [
