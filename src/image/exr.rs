@@ -208,7 +208,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
 /// Names of the channels that hold a layer's colours.
 fn color_channels(header: &Header) -> Option<[&'static str; 3]> {
     let has = |name: &&str| header.channels.list.iter().any(|channel| channel.name == **name);
-    [["R", "G", "B"], ["Y"; 3]].into_iter().find(|names| names.iter().all(|name| has(name)))
+    [["R", "G", "B"], ["Y"; 3]].into_iter().find(|names| names.iter().all(has))
 }
 
 /// The samples of three channels, pixel by pixel; `None` if one does not exist.
