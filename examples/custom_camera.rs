@@ -9,9 +9,9 @@ use std::f32::consts::FRAC_PI_2;
 use std::path::Path;
 
 use lobe::camera::Camera;
-use lobe::film::{Display, Metadata, write_png};
 use lobe::geometry::Ray;
 use lobe::glam::{UVec2, Vec2, Vec3};
+use lobe::image::{Display, Metadata, write_png};
 use lobe::integrator::{Estimator, Integrator, Wave};
 use lobe::render::{Sampling, render_with};
 use lobe::sampling::{SampleId, Sampler};

@@ -6,8 +6,8 @@ mod torus;
 
 use std::path::Path;
 
-use lobe::film::{Display, Metadata, write_png};
 use lobe::glam::{Vec2, Vec3};
+use lobe::image::{Display, Metadata, write_png};
 use lobe::light::{Light, LightHit, LightSample};
 use lobe::sampling::cosine_hemisphere;
 use lobe::{

@@ -8,9 +8,9 @@ use std::f32::consts::{PI, TAU};
 use std::path::Path;
 
 use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, BxdfSample, LambertianReflection};
-use lobe::film::{Display, Metadata, write_png};
 use lobe::geometry::{Frame, reflect};
 use lobe::glam::{Vec2, Vec3};
+use lobe::image::{Display, Metadata, write_png};
 use lobe::interaction::SurfaceInteraction;
 use lobe::material::Material;
 use lobe::texture::{Texture, TextureHandle};

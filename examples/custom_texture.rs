@@ -7,8 +7,8 @@ mod torus;
 use std::path::Path;
 use std::sync::Arc;
 
-use lobe::film::{Display, Metadata, write_png};
 use lobe::glam::{Affine3A, Vec2, Vec3};
+use lobe::image::{Display, Metadata, write_png};
 use lobe::interaction::SurfaceInteraction;
 use lobe::scene::{IntegratorSettings, SamplerKind, SamplerSettings};
 use lobe::texture::Texture;

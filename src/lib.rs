@@ -4,13 +4,13 @@
 //! The rooms, from the ground up; none knows those below it in this list:
 //!
 //! - [`Spectrum`], linear RGB; [`geometry`], rays, shading frames and error-bounded points; [`sampling`], warps
-//!   of the unit square and the samplers that fill it;
+//!   of the unit square and the samplers that fill it; [`image`], pictures, and PNG, EXR and PFM files;
 //! - [`bxdf`], reflection models and their sum at a hit, [`bxdf::Bsdf`];
 //! - [`shape`], triangle meshes and OBJ files; [`interaction`], what is known about a hit;
 //! - [`texture`], values over a surface; [`material`], which turns them into lobes; [`light`];
-//! - [`accel`], rays against all triangles; [`camera`]; [`film`], sums of samples, PNG and EXR;
+//! - [`accel`], rays against all triangles; [`camera`]; [`film`], filters and sums of samples;
 //! - [`scene`], what is rendered and how it is seen; [`integrator`], how light is computed; [`render`](mod@render), the loop;
-//! - [`metrics`], how far an image is from another one.
+//! - [`metrics`], errors between images, convergence and charts.
 //!
 //! Traits are the doors for other crates: [`bxdf::BxDF`], [`texture::Texture`], [`material::Material`],
 //! [`light::Light`], [`camera::Camera`], [`sampling::Sampler`] and [`integrator::Integrator`]. What most callers need stands at the
@@ -25,6 +25,7 @@ pub mod camera;
 mod clock;
 pub mod film;
 pub mod geometry;
+pub mod image;
 pub mod integrator;
 pub mod interaction;
 pub mod light;

@@ -9,7 +9,7 @@ use lobe::glam::{UVec2, Vec3};
 use lobe::integrator::{DirectIntegrator, Estimator, Integrator, Wave, dimension};
 use lobe::light::SkyLight;
 use lobe::metrics::convergence::{
-    Bias, Curve, Distrust, Method, Other, Pool, Reference, Run, Study, front,
+    Bias, Curve, Distrust, Method, Other, Reference, Run, RunningMean, Study, pareto_front,
 };
 use lobe::render::{Sampling, render_with};
 use lobe::sampling::{IndependentSampler, SampleId, Sampler};
@@ -58,7 +58,7 @@ fn view() -> View {
 
 /// Draws the parts of a reference, from seeds that no method has.
 fn reference(scene: &Scene) -> Reference {
-    let mut pool = Pool::default();
+    let mut pool = RunningMean::default();
     for part in 0..u64::from(PARTS) {
         let sampler = SamplerSettings {
             kind: SamplerKind::Sobol,
@@ -148,7 +148,7 @@ impl Estimator for WrongPdfEstimator<'_> {
 
 /// All runs of a method, and its bias at the largest budget.
 fn measure(method: &Method, reference: &Reference) -> (Vec<Run>, Bias) {
-    let (mut runs, mut pool) = (Vec::new(), Pool::default());
+    let (mut runs, mut pool) = (Vec::new(), RunningMean::default());
     for spp in BUDGETS {
         for seed in 0..SEEDS {
             let (run, image) = method.run(spp, seed, reference).unwrap();
@@ -204,7 +204,7 @@ fn wrong_methods_flatten_and_are_called_biased() {
 /// Times and errors by hand: medians, quartiles, what the reference takes off, and Pareto's front.
 #[test]
 fn curves_are_those_by_hand() {
-    let mut pool = Pool::default();
+    let mut pool = RunningMean::default();
     // Two parts, 0.01 apart in each band: the variance of their mean is 0.005², and 1 + 0.01 divides it.
     for value in [0.995, 1.005] {
         pool.add(&[Spectrum::splat(value); 64]);
@@ -247,7 +247,8 @@ fn curves_are_those_by_hand() {
     close(q3, 0.065_f64.sqrt());
     assert_eq!(curves[0].points[2].error, None, "below the reference's own error");
     // At 2.25 s, 2.75 s, 4.25 s; the point at 5.25 s is beaten.
-    let front: Vec<_> = front(&curves).iter().map(|(number, point)| (*number, point.spp)).collect();
+    let front: Vec<_> =
+        pareto_front(&curves).iter().map(|(number, point)| (*number, point.spp)).collect();
     assert_eq!(front, [(0, 1), (1, 1), (0, 2)]);
     close(curves[0].error_at((2.25_f64 * 4.25).sqrt()).unwrap(), 0.1);
     assert_eq!(curves[0].error_at(2.0), None);
@@ -273,7 +274,7 @@ fn curves_are_those_by_hand() {
 /// A picture whose error lies in few pixels says so, and where.
 #[test]
 fn rare_samples_are_not_trusted() {
-    let mut pool = Pool::default();
+    let mut pool = RunningMean::default();
     for part in 0..4 {
         let mut pixels = vec![Spectrum::splat(0.5 + 0.001 * part as f32); 2000];
         pixels[1234] = Spectrum::splat(if part == 2 { 100.0 } else { 0.5 });
@@ -300,11 +301,11 @@ fn rare_samples_are_no_bias() {
         };
         (0..256).map(pixel).collect()
     };
-    let mut truth = Pool::default();
+    let mut truth = RunningMean::default();
     (0..8).for_each(|seed| truth.add(&picture(100 + seed, 4096)));
     let mut named = 0;
     for trial in 0..50 {
-        let mut method = Pool::default();
+        let mut method = RunningMean::default();
         (0..8).for_each(|seed| method.add(&picture(1000 + 8 * trial + seed, 4)));
         let bias = Bias::new(&method, &Reference::new(&truth, UVec2::new(16, 16)), 4.0 / 4096.0);
         named += u32::from(bias.is_certain());
@@ -318,17 +319,17 @@ fn pools_go_on() {
     let picture = |n: u32| -> Vec<Spectrum> {
         (0..50).map(|i| Spectrum::splat(((i * 7 + n * 13) % 17) as f32 * 0.1)).collect()
     };
-    let (mut all, mut first) = (Pool::default(), Pool::default());
+    let (mut all, mut first) = (RunningMean::default(), RunningMean::default());
     (0..5).for_each(|n| all.add(&picture(n)));
     (0..3).for_each(|n| first.add(&picture(n)));
     let (pixels, variance) = first.pixels();
-    let image = lobe::metrics::Image {
+    let image = lobe::image::Image {
         size: UVec2::new(10, 5),
         pixels,
         variance,
-        encoding: lobe::metrics::Encoding::Linear,
+        encoding: lobe::image::Encoding::Linear,
     };
-    let mut again = Pool::from_image(&image, 3);
+    let mut again = RunningMean::from_image(&image, 3);
     (3..5).for_each(|n| again.add(&picture(n)));
     assert_eq!(again.count(), 5);
     let ((a, va), (b, vb)) = (all.pixels(), again.pixels());

@@ -5,8 +5,9 @@ mod scenes;
 use std::num::NonZeroUsize;
 use std::time::Duration;
 
-use lobe::film::{Filter, Metadata, Picture, Window, write_exr};
+use lobe::film::Filter;
 use lobe::glam::{UVec2, Vec3};
+use lobe::image::{Metadata, Picture, Window, write_exr};
 use lobe::light::SkyLight;
 use lobe::scene::{Emission, IntegratorSettings, SamplerKind, SamplerSettings};
 use lobe::{

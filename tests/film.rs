@@ -2,8 +2,9 @@
 //! second pass over the samples in f64.
 
 use lobe::Spectrum;
-use lobe::film::{Film, FilmContents, Picture, Variance, Window};
+use lobe::film::{Film, FilmContents, Variance};
 use lobe::glam::{UVec2, Vec3};
+use lobe::image::{Picture, Window};
 
 /// SplitMix64 (Steele et al. 2014), as numbers in `[0, 1)`.
 struct Rng(u64);

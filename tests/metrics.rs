@@ -3,7 +3,8 @@
 
 use lobe::Spectrum;
 use lobe::glam::UVec2;
-use lobe::metrics::{CompareError, Encoding, ErrorMap, Errors, Image, Viewing, flip, z_test};
+use lobe::image::{Encoding, Image};
+use lobe::metrics::{CompareError, ErrorMap, Errors, Viewing, flip, z_test};
 
 fn image(size: UVec2, encoding: Encoding, pixel: impl Fn(u32, u32) -> [f32; 3]) -> Image {
     let at = |i: u32| Spectrum::from(pixel(i % size.x, i / size.x));

@@ -10,10 +10,10 @@ use std::process::Command;
 use exr::meta::attribute::Chromaticities;
 use exr::prelude::{AttributeValue, FlatImage, FlatSamples, Text, Vec2};
 use lobe::Spectrum;
-use lobe::film::{
-    Display, Layers, Metadata, OutputError, Picture, Window, check_writable, write_exr, write_png,
-};
 use lobe::glam::UVec2;
+use lobe::image::{
+    Display, Layers, Metadata, Picture, Window, WriteError, check_writable, write_exr, write_png,
+};
 
 const SOFTWARE: &str = concat!("lobe ", env!("CARGO_PKG_VERSION"));
 
@@ -353,7 +353,7 @@ fn equal_input_gives_equal_bytes() {
     assert!(files.windows(2).all(|pair| pair[0] == pair[1]));
 }
 
-fn message(result: Result<(), OutputError>) -> String {
+fn message(result: Result<(), WriteError>) -> String {
     result.unwrap_err().to_string()
 }
 

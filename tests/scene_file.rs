@@ -7,8 +7,9 @@
 use std::path::{Path, PathBuf};
 
 use lobe::camera::{Camera, PerspectiveCamera};
-use lobe::film::{Display, Filter, Window};
+use lobe::film::Filter;
 use lobe::glam::{UVec2, Vec2, Vec3};
+use lobe::image::{Display, Window};
 use lobe::light::Light;
 use lobe::scene::{
     IntegratorSettings, LightStrategy, LoadedScene, SamplerKind, SamplerSettings, SceneFileError,

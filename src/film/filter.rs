@@ -1,46 +1,46 @@
-//! [`Filter`]: how much the light around a pixel counts for it.
+//! [`Filter`]: the weight of radiance around a pixel's centre.
 
 use glam::Vec2;
 
 /// Why a filter cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum FilterError {
-    /// A filter covers something, and no more than [`Filter::LARGEST_RADIUS`].
+    /// The radius is not in `(0, LARGEST_RADIUS]`: see [`Filter::LARGEST_RADIUS`].
     #[error("the filter's radius is {0}: it has to be above 0 and at most 16 pixels")]
     Radius(f32),
-    /// A bell has a width.
+    /// The standard deviation is not finite or not above 0.
     #[error("the filter's sigma is {0}: it has to be finite and above 0")]
     Sigma(f32),
 }
 
-/// A reconstruction filter about the middle of a pixel (PBRT 3rd edition, section 7.8): a product of the same
-/// function of x and of y, which is symmetric, never negative, and falls from the middle to the radius.
-/// Lengths are in pixels.
+/// A reconstruction filter around the centre of a pixel (PBRT 3rd edition, section 7.8). It is separable: the product of
+/// the same function of x and of y, which is symmetric, never negative, and falls from the centre to the radius. Lengths
+/// are in pixels.
 ///
-/// Samples are drawn in proportion to it, and all count the same (Ernst, Stamminger and Greiner 2006,
-/// "Filter Importance Sampling"): so each belongs to one pixel, and tiles know nothing of each other.
+/// Positions are drawn in proportion to the filter, and all samples have the same weight (Ernst, Stamminger and Greiner
+/// 2006, "Filter Importance Sampling"). So a sample belongs to one pixel, and tiles do not overlap.
 /// [`FilterSampler`](super::FilterSampler) draws them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Filter {
-    /// The pixel itself, and nothing around it.
+    /// Constant over the pixel, zero outside.
     #[default]
     Box,
-    /// A straight line down to zero.
+    /// Falls linearly to zero.
     Tent {
-        /// Where it ends on each axis.
+        /// Half of its width on each axis.
         radius: f32,
     },
-    /// A Gaussian, less its value at the radius.
+    /// A Gaussian minus its value at the radius, so that it ends without a step.
     Gaussian {
-        /// Where it ends on each axis.
+        /// Half of its width on each axis.
         radius: f32,
-        /// Standard deviation of the whole Gaussian.
+        /// Standard deviation of the untruncated Gaussian.
         sigma: f32,
     },
-    /// The window of Blackman and Harris with four terms (Harris 1978, "On the use of windows for harmonic
+    /// The four-term Blackman-Harris window (Harris 1978, "On the use of windows for harmonic
     /// analysis with the discrete Fourier transform", section V.H).
     BlackmanHarris {
-        /// Where it ends on each axis.
+        /// Half of its width on each axis.
         radius: f32,
     },
 }
@@ -49,22 +49,22 @@ impl Filter {
     /// The largest radius, in pixels.
     pub const LARGEST_RADIUS: f32 = 16.0;
 
-    /// A tent that reaches to the middles of the next pixels.
+    /// A tent that reaches the centres of the neighbouring pixels.
     pub const fn tent() -> Self {
         Self::Tent { radius: 1.0 }
     }
 
-    /// A Gaussian with sigma 0.5, cut off at radius 1.5.
+    /// A Gaussian with sigma 0.5 and radius 1.5.
     pub const fn gaussian() -> Self {
         Self::Gaussian { radius: 1.5, sigma: 0.5 }
     }
 
-    /// The window of Blackman and Harris with radius 1.5.
+    /// A Blackman-Harris window with radius 1.5.
     pub const fn blackman_harris() -> Self {
         Self::BlackmanHarris { radius: 1.5 }
     }
 
-    /// Where the filter ends on each axis; half a pixel for the box.
+    /// Half of the filter's width on each axis; 0.5 for the box.
     pub const fn radius(&self) -> f32 {
         match *self {
             Self::Box => 0.5,
@@ -74,7 +74,7 @@ impl Filter {
         }
     }
 
-    /// Whether it can be used.
+    /// Checks the parameters.
     ///
     /// # Errors
     /// If the radius is not above 0 or is above [`LARGEST_RADIUS`](Self::LARGEST_RADIUS), or sigma is not
@@ -92,7 +92,7 @@ impl Filter {
         }
     }
 
-    /// The filter's value at this offset from the middle of the pixel; it is not normalised.
+    /// The filter's value at this offset from the pixel's centre. It is not normalised.
     pub fn evaluate(&self, offset: Vec2) -> f32 {
         (self.profile(f64::from(offset.x)) * self.profile(f64::from(offset.y))) as f32
     }
@@ -108,7 +108,7 @@ impl Filter {
             Self::Box => 1.0,
             Self::Tent { .. } => 1.0 - x / radius,
             Self::Gaussian { sigma, .. } => {
-                // exp(-a) - exp(-b) without cancellation, however flat the Gaussian is.
+                // exp(-a) - exp(-b) without cancellation for any sigma.
                 let exponent = |x: f64| 0.5 * (x / f64::from(sigma)).powi(2);
                 let (a, b) = (exponent(x), exponent(radius));
                 -(-a).exp() * (a - b).exp_m1()

@@ -1,15 +1,15 @@
-//! [`FilterSampler`]: places in proportion to a filter.
+//! [`FilterSampler`]: draws positions in proportion to a filter.
 
 use glam::Vec2;
 
 use super::{Filter, FilterError};
 
-/// Draws places in proportion to a [`Filter`]: prepared once, asked for every sample.
+/// Draws positions in proportion to a [`Filter`]. Prepared once, used for every sample.
 ///
-/// On each axis the place is a function of that axis' number alone and never decreases with it, so points that
-/// are spread evenly stay so. Box and tent are inverted in closed form. For the others the density is a chain of
-/// straight lines, which is inverted exactly; it differs from the filter's by less than 10⁻⁴ of its
-/// peak, and the cumulative distribution by less than 5 · 10⁻⁶ (2 · 10⁻⁶ with the default shapes).
+/// On each axis the position depends on that axis' random number alone and never decreases with it, so stratification is
+/// kept. Box and tent are inverted in closed form. The others are approximated by a piecewise linear density, which is
+/// inverted exactly; it differs from the filter by less than 10⁻⁴ of its peak, and the cumulative distribution by less
+/// than 5 · 10⁻⁶ (2 · 10⁻⁶ for the default parameters).
 ///
 /// ```
 /// use lobe::film::{Filter, FilterSampler};
@@ -41,7 +41,7 @@ impl FilterSampler {
         Ok(Self(match filter {
             Filter::Box => Kind::Box,
             Filter::Tent { radius } => Kind::Tent(radius),
-            // Farther out than 6.5 standard deviations lies less than 2⁻³³ of a Gaussian.
+            // Beyond 6.5 standard deviations lies less than 2⁻³³ of a Gaussian.
             Filter::Gaussian { radius, sigma } => {
                 Kind::Table(Box::new(Table::new(filter, radius.min(6.5 * sigma))))
             }
@@ -49,7 +49,7 @@ impl FilterSampler {
         }))
     }
 
-    /// The offset from the middle of the pixel that belongs to `u` in `[0, 1)²`, in pixels.
+    /// Maps `u` in `[0, 1)²` to an offset from the pixel's centre, in pixels.
     #[inline]
     pub fn sample(&self, u: Vec2) -> Vec2 {
         match &self.0 {
@@ -59,8 +59,8 @@ impl FilterSampler {
         }
     }
 
-    /// The place from the upper left corner of the pixel that belongs to `u` in `[0, 1)²`, in pixels: for a
-    /// box it is `u` itself, bit by bit.
+    /// Maps `u` in `[0, 1)²` to a position relative to the pixel's upper left corner, in pixels. For a box it is `u`
+    /// itself, bit by bit.
     #[inline]
     pub fn place(&self, u: Vec2) -> Vec2 {
         match self.0 {
@@ -70,40 +70,40 @@ impl FilterSampler {
     }
 }
 
-/// The half of the axis that `u` falls in, as a signed number whose magnitude is uniform in `[0, 1]`.
+/// Maps `u` to `[-1, 1)`: the sign is the half of the axis, the magnitude is uniform.
 #[inline]
 fn signed(u: f32) -> f32 {
     2.0 * u - 1.0
 }
 
-/// Inverts 1 - (1 - x / radius)², the share of a tent's half that lies below x.
+/// Inverts 1 - (1 - x / radius)², the cumulative distribution of a tent's positive half.
 #[inline]
 fn tent(u: f32, radius: f32) -> f32 {
     let t = signed(u);
     radius * (t / (1.0 + (1.0 - t.abs()).sqrt()))
 }
 
-/// Cells of a table; a power of two, so that places come out exact at the end.
+/// Cells of a table; a power of two, so that dividing by it is exact.
 const CELLS: usize = 512;
 
-/// The half of a filter's profile above zero as a chain of straight lines over cells of equal width.
+/// The positive half of a filter's profile, piecewise linear over cells of equal width.
 #[derive(Clone, Debug)]
 struct Table {
     extent: f32,
-    /// One more than there are cells: nothing reaches the last one.
+    /// The last one is a sentinel, which no sample reaches.
     cells: [Cell; CELLS + 1],
-    /// The cell to begin with for each part of the unit interval.
+    /// For each of as many equal parts of `[0, 1]`, the cell where the search begins.
     first: [u16; CELLS],
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Cell {
-    /// Share of the half that lies before the cell.
+    /// Cumulative distribution at the cell's beginning.
     before: f32,
-    /// Square of the density at the cell's beginning, in units of one over the cell's width.
+    /// Square of the density at the cell's beginning; densities are per cell width.
     square: f32,
     density: f32,
-    /// Twice the density at the end, less twice that at the beginning: not above zero.
+    /// Twice the change of the density over the cell; never positive.
     slope: f32,
 }
 
@@ -130,8 +130,8 @@ impl Table {
         Self { extent, cells, first }
     }
 
-    /// Inverts the cumulative distribution. Each step is monotone in `u` as it is rounded, for the density
-    /// falls within each cell.
+    /// Inverts the cumulative distribution. Each step is monotone in `u` even as rounded, because the density falls within
+    /// each cell.
     #[inline]
     fn sample(&self, u: f32) -> f32 {
         let t = signed(u);
@@ -143,7 +143,7 @@ impl Table {
         }
         let Cell { before, square, density, slope } = self.cells[i];
         let rest = share - before;
-        // The root of density s + slope s² / 4 = rest that does not cancel.
+        // Root of density s + slope s² / 4 = rest, in the form without cancellation.
         let root = (square + slope * rest).max(0.0).sqrt();
         let within = (2.0 * rest / (density + root)).min(1.0);
         ((i as f32 + within) * (1.0 / CELLS as f32) * self.extent).copysign(t)

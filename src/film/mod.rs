@@ -1,24 +1,17 @@
-//! The film: what a render leaves behind, and how it is written to files.
+//! The film: samples of radiance are added to it and developed into a [`Picture`](crate::image::Picture).
+//!
+//! A [`Filter`] says how the radiance around a pixel's centre is weighted, and [`FilterSampler`] draws positions in
+//! proportion to it, so that a [`Film`] only sums samples. [`FilmContents`] says what it keeps besides: how the
+//! [`Variance`] of each pixel is estimated, and the first hits.
 
-mod display;
-mod exr;
+mod film_sums;
 mod filter;
 mod filter_sampler;
-mod output;
-mod picture;
-mod png;
-mod spread;
-mod sums;
+mod first_hits;
+mod pixel_sum;
+mod variance;
 
-pub use display::Display;
-pub use exr::write_exr;
+pub use film_sums::{Film, FilmContents, FilmError};
 pub use filter::{Filter, FilterError};
 pub use filter_sampler::FilterSampler;
-pub use output::{OutputError, check_writable, write_file};
-pub use picture::{Layers, Metadata, Picture, Window};
-pub use png::{encode_png, write_png};
-pub use spread::Variance;
-pub use sums::{Film, FilmContents, FilmError};
-
-/// The name that files give for their maker.
-const SOFTWARE: &str = concat!("lobe ", env!("CARGO_PKG_VERSION"));
+pub use variance::Variance;

@@ -1,21 +1,22 @@
-//! [`Errors`]: the usual numbers for how far two images are apart.
+//! [`Errors`]: MSE, MAE, relMSE and PSNR of two images.
 
 use glam::UVec2;
 
-use super::{Encoding, Image};
+use crate::image::{Encoding, Image};
+use crate::spectrum::Spectrum;
 
-/// How far an image is from a reference, over all bands of all pixels.
+/// Differences between an image a and a reference b, averaged over all bands of all pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
     /// Mean of (a - b)².
     pub mse: f64,
     /// Mean of |a - b|.
     pub mae: f64,
-    /// Mean of (a - b)² / (b² + 0.01), where b is the reference.
+    /// Mean of (a - b)² / (b² + 0.01).
     pub rel_mse: f64,
-    /// What [`Errors::psnr`] takes for the brightest: 1 for codes, for radiance the reference's largest value.
+    /// Peak value for [`Errors::psnr`]: 1 for codes; for radiance the largest value of the reference.
     pub peak: f64,
-    /// Mean of a - b: what noise would leave near zero.
+    /// Mean of a - b, in which noise averages out: a bias of the whole image.
     pub mean: f64,
 }
 
@@ -26,41 +27,41 @@ pub enum CompareError {
     /// The images have different sizes.
     #[error("the images have {} x {} and {} x {} pixels: they have to be of one size", .0.x, .0.y, .1.x, .1.y)]
     Size(UVec2, UVec2),
-    /// One has radiance, the other codes.
+    /// One image is linear, the other one encoded.
     #[error(
         "one image is linear (EXR, PFM), the other one encoded for a screen (PNG): compare two of one kind"
     )]
     Encoding,
-    /// There are values that are not finite.
+    /// One image has values that are not finite.
     #[error("{count} pixels of the {which} are not finite, at {}: no mean over them would mean anything", positions(.first, *.count))]
     NotFinite {
         /// "image" or "reference".
         which: &'static str,
-        /// How many pixels.
+        /// Number of such pixels.
         count: usize,
-        /// Columns and rows of the first of them.
+        /// Columns and rows of the first few.
         first: Vec<UVec2>,
     },
 }
 
 fn positions(first: &[UVec2], count: usize) -> String {
     let more = if count > first.len() { ", ..." } else { "" };
-    let places = first.iter().map(|at| format!("({}, {})", at.x, at.y)).collect::<Vec<_>>();
-    places.join(", ") + more
+    let list = first.iter().map(|at| format!("({}, {})", at.x, at.y)).collect::<Vec<_>>();
+    list.join(", ") + more
 }
 
-/// So many pixels that are not finite are named.
+/// At most this many pixels that are not finite are named.
 const NAMED: usize = 5;
 
 impl Errors {
     /// The errors of `image` against `reference`.
     ///
     /// # Errors
-    /// When the images are not of one size and kind, or not finite.
+    /// When the images differ in size or encoding, or have values that are not finite.
     pub fn between(image: &Image, reference: &Image) -> Result<Self, CompareError> {
         check(image, reference)?;
         let bands = |image: &Image| {
-            let bands = |pixel: &crate::Spectrum| pixel.to_array().map(f64::from);
+            let bands = |pixel: &Spectrum| pixel.to_array().map(f64::from);
             image.pixels.iter().flat_map(bands).collect::<Vec<f64>>()
         };
         let (a, b) = (bands(image), bands(reference));
@@ -91,7 +92,7 @@ impl Errors {
     }
 }
 
-/// Whether both can be compared at all.
+/// Checks that the images can be compared.
 pub(super) fn check(image: &Image, reference: &Image) -> Result<(), CompareError> {
     if image.size != reference.size {
         return Err(CompareError::Size(image.size, reference.size));
@@ -100,12 +101,12 @@ pub(super) fn check(image: &Image, reference: &Image) -> Result<(), CompareError
         return Err(CompareError::Encoding);
     }
     for (which, image) in [("image", image), ("reference", reference)] {
-        let is_odd = |place: &usize| !image.pixels[*place].is_finite();
+        let is_odd = |index: &usize| !image.pixels[*index].is_finite();
         let odd: Vec<usize> = (0..image.pixels.len()).filter(is_odd).collect();
         if !odd.is_empty() {
-            let at = |place: &usize| {
-                let (place, width) = (*place as u32, image.size.x);
-                UVec2::new(place % width, place / width)
+            let at = |index: &usize| {
+                let (index, width) = (*index as u32, image.size.x);
+                UVec2::new(index % width, index / width)
             };
             let first = odd.iter().take(NAMED).map(at).collect();
             return Err(CompareError::NotFinite { which, count: odd.len(), first });

@@ -1,4 +1,4 @@
-//! [`flip`]: what a viewer sees who flips between two images.
+//! [`flip`]: the perceived difference of two images.
 //!
 //! Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild 2020, "FLIP: A Difference Evaluator for
 //! Alternating Images"; for radiance Andersson, Nilsson, Shirley and Akenine-Möller 2021, "Visualizing Errors in
@@ -8,37 +8,41 @@ use std::f32::consts::PI;
 
 use glam::{Mat3, UVec2, Vec3};
 
+use super::CompareError;
 use super::errors::check;
 use super::plane::Plane;
-use super::{CompareError, Encoding, Image};
+use crate::image::{Display, Encoding, Image};
 
-/// How the images are looked at.
+/// Viewing conditions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewing {
-    /// Pixels in a degree of the field of view.
+    /// Pixels per degree of the field of view.
     pub pixels_per_degree: f32,
 }
 
 impl Default for Viewing {
-    /// 0.7 m in front of a screen that is 0.7 m wide and has 3840 columns: 67.02.
+    /// 0.7 m in front of a screen that is 0.7 m wide and has 3840 columns: 67.02 pixels per degree.
     fn default() -> Self {
         Self { pixels_per_degree: 0.7 * (3840.0 / 0.7) * (PI / 180.0) }
     }
 }
 
-/// The exposures at which radiance was looked at, in stops: as many as there are whole stops between both.
+/// The exposures at which linear images were compared, in stops: evenly spaced, as many as there are stops between
+/// the first and the last one, rounded up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exposures {
-    /// Where the brightest pixel is bright.
+    /// The first one, at which the tone mapper takes the brightest pixel of the reference to 0.85.
     pub start: f32,
-    /// Where the median pixel is.
+    /// The last one, likewise for the pixel of median luminance.
     pub stop: f32,
-    /// How many, at least two.
+    /// Number of exposures, at least two.
     pub count: usize,
 }
 
-/// The difference that is seen at each pixel, from 0 to 1: of codes as they are; of radiance the largest at
-/// several exposures, which follow from the reference and come along.
+/// The difference that a viewer sees at each pixel who flips between both images, from 0 to 1.
+///
+/// Encoded images are compared as they are (LDR-FLIP). Linear images are tone mapped at several exposures, which follow
+/// from the reference and are returned, and the result is the maximum over them (HDR-FLIP).
 ///
 /// # Errors
 /// As [`Errors::between`](super::Errors::between).
@@ -55,7 +59,12 @@ pub fn flip(
     let (test, truth, size) = (vectors(image), vectors(reference), image.size);
     if image.encoding == Encoding::Srgb {
         let linear = |pixels: Vec<Vec3>| -> Vec<Vec3> {
-            pixels.into_iter().map(|p| p.to_array().map(from_srgb).into()).collect()
+            pixels
+                .into_iter()
+                .map(|p| {
+                    p.to_array().map(|code| Display::Srgb.decode(f64::from(code)) as f32).into()
+                })
+                .collect()
         };
         return Ok((difference(size, &linear(test), &linear(truth), &filters), None));
     }
@@ -73,7 +82,7 @@ pub fn flip(
 
 impl Exposures {
     fn of(reference: &[Vec3]) -> Self {
-        // Where the tone mapper gives 0.85.
+        // Solves the tone mapping curve for the value 0.85.
         const T: f32 = 0.85;
         let [k0, k1, k2, k3, k4, k5] = ACES;
         let (a, b, c) = (k0 - T * k3, k1 - T * k4, k2 - T * k5);
@@ -95,7 +104,7 @@ impl Exposures {
     }
 }
 
-/// The tone mapper's curve, (k₀x² + k₁x + k₂) / (k₃x² + k₄x + k₅): Narkowicz's fit to ACES.
+/// Coefficients of the tone mapping curve (k₀x² + k₁x + k₂) / (k₃x² + k₄x + k₅), Narkowicz's fit to ACES.
 const ACES: [f32; 6] = [0.36 * 2.51, 0.6 * 0.03, 0.0, 0.36 * 2.43, 0.6 * 0.59, 0.14];
 
 fn tone_map(p: Vec3) -> Vec3 {
@@ -104,11 +113,11 @@ fn tone_map(p: Vec3) -> Vec3 {
     Vec3::from(p.max(Vec3::ZERO).to_array().map(curve)).clamp(Vec3::ZERO, Vec3::ONE)
 }
 
-/// Weights of all filters, which go along rows and columns.
+/// Weights of all filters, each separable.
 struct Filters {
-    /// Of luminance, red against green, and blue against yellow: sums of two.
+    /// Contrast sensitivity to luminance, red-green and blue-yellow, each a sum of two Gaussians.
     color: [[(f32, Vec<f32>); 2]; 3],
-    /// A slope, a bump, and what smooths them along their length.
+    /// Feature detectors: the first and second derivatives of a Gaussian, and the Gaussian for the other axis.
     edge: Vec<f32>,
     point: Vec<f32>,
     smooth: Vec<f32>,
@@ -116,7 +125,7 @@ struct Filters {
 
 impl Filters {
     fn new(Viewing { pixels_per_degree: ppd }: Viewing) -> Self {
-        // Contrast sensitivity: a₁, b₁, a₂, b₂ of each.
+        // a₁, b₁, a₂, b₂ of the contrast sensitivity functions.
         const SENSITIVITY: [[f32; 4]; 3] =
             [[1.0, 0.0047, 0.0, 1e-5], [1.0, 0.0053, 0.0, 1e-5], [34.1, 0.04, 13.5, 0.025]];
         let reach = (3.0 * (0.04 / (2.0 * PI * PI)).sqrt() * ppd).ceil() as i32;
@@ -148,17 +157,17 @@ impl Filters {
     }
 }
 
-/// Weights scaled so that the positive ones add up to 1 and the negative ones to -1.
+/// Scales the weights so that the positive ones sum to 1 and the negative ones to -1.
 fn balanced(weights: Vec<f32>) -> Vec<f32> {
     let above: f32 = weights.iter().map(|w| w.max(0.0)).sum();
     let below: f32 = weights.iter().map(|w| -w.min(0.0)).sum();
     weights.into_iter().map(|w| if w < 0.0 { w / below } else { w / above }).collect()
 }
 
-/// The difference of two images of linear colours from 0 to 1.
+/// LDR-FLIP of two images with linear colours in `[0, 1]`.
 fn difference(size: UVec2, test: &[Vec3], truth: &[Vec3], filters: &Filters) -> Vec<f32> {
     let (test, truth) = (Seen::new(size, test, filters), Seen::new(size, truth, filters));
-    // Colours: the largest difference that there can be is that of green and blue.
+    // The largest possible colour difference is that of green and blue.
     const POWER: f32 = 0.7;
     let largest = hyab(hunt_lab(Vec3::Y), hunt_lab(Vec3::Z)).powf(POWER);
     let color = test.lab.iter().zip(&truth.lab);
@@ -175,7 +184,7 @@ fn difference(size: UVec2, test: &[Vec3], truth: &[Vec3], filters: &Filters) -> 
         .collect()
 }
 
-/// The share of the largest difference `largest` that a difference has, the small ones spread over most of it.
+/// Maps a difference to `[0, 1]` relative to the largest one; small differences get most of the range.
 fn redistribute(difference: f32, largest: f32) -> f32 {
     const C: f32 = 0.4;
     const T: f32 = 0.95;
@@ -187,9 +196,9 @@ fn redistribute(difference: f32, largest: f32) -> f32 {
     }
 }
 
-/// What is seen of an image.
+/// An image as it is perceived.
 struct Seen {
-    /// Blurred colours, in L*a*b* after Hunt.
+    /// Colours after the contrast sensitivity filter, in L*a*b* with Hunt's adjustment.
     lab: Vec<Vec3>,
     edges: Plane,
     points: Plane,
@@ -223,32 +232,32 @@ impl Seen {
     }
 }
 
-/// Linear Rec. 709 to XYZ, rows, and the white that it has.
+/// Linear Rec. 709 to XYZ.
 const TO_XYZ: Mat3 = Mat3::from_cols(
     Vec3::new(0.412_386_56, 0.212_636_82, 0.019_330_62),
     Vec3::new(0.357_591_49, 0.715_182_98, 0.119_197_16),
     Vec3::new(0.180_450_49, 0.072_180_2, 0.950_372_6),
 );
 
-/// XYZ over that of white.
+/// XYZ relative to white.
 fn xyz_of(rgb: Vec3) -> Vec3 {
     (TO_XYZ * rgb) / (TO_XYZ * Vec3::ONE)
 }
 
-/// Y, Cx and Cz, linear opponent colours.
+/// Linear opponent colours Y, Cx and Cz.
 fn opponent_of(rgb: Vec3) -> Vec3 {
     let Vec3 { x, y, z } = xyz_of(rgb);
     Vec3::new(116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z))
 }
 
-/// Back from [`opponent_of`].
+/// Inverse of [`opponent_of`].
 fn linear_of(opponent: Vec3) -> Vec3 {
     let y = (opponent.x + 16.0) / 116.0;
     let xyz = Vec3::new(y + opponent.y / 500.0, y, y - opponent.z / 200.0);
     TO_XYZ.inverse() * (xyz * (TO_XYZ * Vec3::ONE))
 }
 
-/// L*a*b*, where chroma fades with luminance.
+/// L*a*b* with Hunt's adjustment: chroma is scaled by luminance.
 fn hunt_lab(rgb: Vec3) -> Vec3 {
     const DELTA: f32 = 6.0 / 29.0;
     let f = |t: f32| {
@@ -259,12 +268,8 @@ fn hunt_lab(rgb: Vec3) -> Vec3 {
     Vec3::new(l, 0.01 * l * 500.0 * (x - y), 0.01 * l * 200.0 * (y - z))
 }
 
-/// A distance for large differences: |ΔL| + √(Δa² + Δb²).
+/// HyAB, a distance for large colour differences: |ΔL| + √(Δa² + Δb²).
 fn hyab(a: Vec3, b: Vec3) -> f32 {
     let d = a - b;
     d.x.abs() + d.y.hypot(d.z)
-}
-
-fn from_srgb(code: f32) -> f32 {
-    if code <= 0.04045 { code / 12.92 } else { ((code + 0.055) / 1.055).powf(2.4) }
 }

@@ -1,4 +1,4 @@
-//! [`Plane`]: one band of an image, and filters that go along rows and columns.
+//! [`Plane`]: one band of an image, and separable filters.
 
 use glam::UVec2;
 
@@ -10,10 +10,10 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// The plane filtered along its rows by `across`, and along its columns by `down`, both of odd length. What lies
-    /// beyond the border is as the border is.
+    /// The plane filtered along its rows by `across`, and along its columns by `down`, both of odd length. Pixels beyond
+    /// the border repeat the border.
     pub fn filtered(&self, across: &[f32], down: &[f32]) -> Self {
-        self.along_rows(across).turned().along_rows(down).turned()
+        self.along_rows(across).transposed().along_rows(down).transposed()
     }
 
     fn along_rows(&self, weights: &[f32]) -> Self {
@@ -32,8 +32,8 @@ impl Plane {
         Self { size: self.size, values }
     }
 
-    /// Rows as columns.
-    fn turned(&self) -> Self {
+    /// Rows and columns exchanged.
+    fn transposed(&self) -> Self {
         let (width, height) = (self.size.x as usize, self.size.y as usize);
         let column = |x: usize| (0..height).map(move |y| self.values[y * width + x]);
         Self {
@@ -42,7 +42,7 @@ impl Plane {
         }
     }
 
-    /// Two planes, number by number.
+    /// Combines two planes pixel by pixel.
     pub fn zip(&self, other: &Self, f: impl Fn(f32, f32) -> f32) -> Self {
         let both = self.values.iter().zip(&other.values);
         Self { size: self.size, values: both.map(|(&a, &b)| f(a, b)).collect() }

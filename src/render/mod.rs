@@ -13,7 +13,8 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use crate::clock::Stopwatch;
-use crate::film::{Film, FilmContents, FilmError, Picture, Variance};
+use crate::film::{Film, FilmContents, FilmError, Variance};
+use crate::image::Picture;
 use crate::integrator::{self, Counters, Integrator};
 use crate::sampling::{
     BlueNoiseSampler, IndependentSampler, Sampler, SobolSampler, StratifiedSampler,

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::UVec2;
 
-use crate::film::Window;
+use crate::image::Window;
 use crate::sampling::SampleId;
 
 /// The samples of a pass: pixel by pixel, row by row, in each pixel set by set, in each set by index.

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::UVec2;
 
-use crate::film::Window;
+use crate::image::Window;
 
 /// The tiles of a window, handed out one by one, row by row, to whoever asks next.
 pub struct Tiles {

@@ -5,7 +5,8 @@ use glam::{UVec2, Vec2};
 use super::pass::Pass;
 use super::samples::Samples;
 use crate::bxdf::BxdfFlags;
-use crate::film::{Film, FilmError, Window};
+use crate::film::{Film, FilmError};
+use crate::image::Window;
 use crate::integrator::{Counters, Wave};
 use crate::sampling::SampleId;
 

@@ -2,7 +2,8 @@
 
 use glam::UVec2;
 
-use crate::film::{Display, Filter, Window};
+use crate::film::Filter;
+use crate::image::{Display, Window};
 use crate::spectrum::Spectrum;
 
 /// The film's size and look.

@@ -6,8 +6,9 @@ use glam::{UVec2, Vec2, Vec3};
 
 use super::FilmSettings;
 use crate::camera::{Camera, CameraError, PerspectiveCamera, PerspectiveSettings};
-use crate::film::{Filter, FilterError, FilterSampler, Window};
+use crate::film::{Filter, FilterError, FilterSampler};
 use crate::geometry::Ray;
+use crate::image::Window;
 use crate::sampling::SampleId;
 
 /// Why there is no view.

@@ -52,7 +52,7 @@ fn chart_writes_curves_tables_and_a_page() {
     let folder = folder("chart");
     let summary = folder.prints(CHART);
     // Sky and surfaces alone: `auto` is `bsdf`, and roulette has no say before the third reflection.
-    assert!(summary.contains("sobol, bsdf does here what sobol does"), "{summary}");
+    assert!(summary.contains("sobol, bsdf gives the same pictures as sobol here"), "{summary}");
     let names = ["independent", "stratified", "sobol", "blue-noise", "sobol, mis", "sobol, light"];
     for name in names {
         let line = format!("method     {name}: ");
@@ -127,7 +127,10 @@ fn chart_takes_lists_and_pictures() {
     );
     let summary =
         folder.prints("chart sky.toml --methods list.toml --budgets 8 --seeds 2 -o e --threads 1");
-    assert!(summary.contains("method     b: ") && !summary.contains("does here"), "{summary}");
+    assert!(
+        summary.contains("method     b: ") && !summary.contains("gives the same pictures"),
+        "{summary}"
+    );
     let other =
         folder.run("chart sky.toml --methods list.toml --budgets 8 --seeds 2 -o e --threads 2");
     assert_eq!(other.status.code(), Some(1), "times of another number of threads");
@@ -140,8 +143,8 @@ fn chart_says_what_is_wrong() {
     folder.prints(CHART);
     folder.fails(
         &format!("{CHART} --set film.resolution=[21,10]"),
-        "`c/plan.toml` holds a chart of another scene, or with other settings: choose another folder by -o, or \
-         begin anew by --fresh",
+        "`c/plan.toml` holds a chart of another scene, or with other settings: choose another folder with -o, or \
+         start again with --fresh",
     );
     folder.fails(
         &format!("{CHART} --add x=no.exr,1"),
@@ -156,16 +159,16 @@ fn chart_says_what_is_wrong() {
     let expected = "; expected a table [methods] with lines such as\n  \
                     \"sobol, one set\" = ['sampler.type=\"sobol\"', 'sampler.replicates=1']";
     for (list, message) in [
-        ("", format!("list.toml: there is nothing in it{expected}")),
+        ("", format!("list.toml: it is empty{expected}")),
         ("[method]\na = []", format!("list.toml: unknown table `method`{expected}")),
-        ("[methods]\na = 1", format!("list.toml: `a` has no list{expected}")),
-        ("[methods]", format!("list.toml: there is no method in it{expected}")),
+        ("[methods]\na = 1", format!("list.toml: `a` is not a list{expected}")),
+        ("[methods]", format!("list.toml: [methods] is empty{expected}")),
         ("[methods]\na = [", "list.toml:2: unclosed array, expected `]`".into()),
         (
             "[methods]\na = ['film.resolution=[1,1]']",
             format!(
-                "list.toml: `a` sets `film.resolution=[1,1]`, but methods differ in `sampler.` and `integrator.` \
-                 alone{expected}"
+                "list.toml: `a` sets `film.resolution=[1,1]`, but methods can only set `sampler.` and \
+                 `integrator.`{expected}"
             ),
         ),
         (
@@ -175,12 +178,14 @@ fn chart_says_what_is_wrong() {
         (
             "[methods]\na = ['sampler.spp=4']",
             format!(
-                "list.toml: `a` sets `sampler.spp=4`, which --budgets and --seeds decide on{expected}"
+                "list.toml: `a` sets `sampler.spp=4`, which is chosen by --budgets and --seeds{expected}"
             ),
         ),
         (
             "[methods]\n\"a\\nb\" = []",
-            format!("list.toml: \"a\\nb\" is no name of one line and up to 80 letters{expected}"),
+            format!(
+                "list.toml: \"a\\nb\" is not a name of one line and at most 80 bytes{expected}"
+            ),
         ),
     ] {
         folder.write("list.toml", list);
@@ -190,7 +195,7 @@ fn chart_says_what_is_wrong() {
         assert!(!folder.0.join("d").exists(), "{list:?}");
     }
     folder.write("c/plan.toml", "budgets = 7");
-    folder.fails(CHART, "`c/plan.toml` is no plan of a chart: choose another folder by -o");
+    folder.fails(CHART, "`c/plan.toml` is not the plan of a chart: choose another folder with -o");
     for usage in ["--budgets 0", "--seeds 1", "--time 0", "--add x", "--add x=a.exr,fast"] {
         assert_eq!(
             folder.run(&format!("chart sky.toml {usage}")).status.code(),

@@ -233,7 +233,7 @@ fn bad_overrides() {
 #[test]
 fn an_image_beyond_memory() {
     let folder = Folder::new("memory");
-    let advice = "of memory, which is not to be had: lower the film's resolution or set a crop";
+    let advice = "of memory, which is not available: lower the film's resolution or set a crop";
     folder.fails(
         "render s.toml -o a.png --set film.resolution=[4000000,4000000]",
         &format!("an image of 4000000 x 4000000 pixels needs about 1464843750 MiB {advice}"),

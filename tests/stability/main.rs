@@ -6,7 +6,7 @@ mod stability;
 
 mod ray_origins;
 
-use stability::Sweep;
+use stability::sweep::Sweep;
 
 /// Every sweep, with a hundredth of the usual trials: all of what the page needs is there, ours keeps its bounds,
 /// and wins somewhere. Seen to fail with usual methods in the place of ours.

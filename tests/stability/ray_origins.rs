@@ -6,8 +6,9 @@ use lobe::geometry::BoundedPoint;
 use lobe::glam::{Vec2, Vec3};
 use lobe::interaction::{Partials, SurfaceInteraction};
 
-use crate::stability::ray_origins::measure::{Failure, Place, measure};
+use crate::stability::ray_origins::measure::{Failure, measure};
 use crate::stability::ray_origins::method::Method;
+use crate::stability::ray_origins::placement::Placement;
 
 const RAYS: u32 = 300;
 
@@ -19,7 +20,7 @@ fn error_bounds_have_no_self_hits() {
     let mut measured = 0;
     for scale in powers(-6, 6) {
         for distance in std::iter::once(0.0).chain(powers(0, 6)) {
-            let place = Place { scale, distance };
+            let place = Placement { scale, distance };
             let at = format!("scale {scale}, distance {distance}");
             let Some([.., [bounded, _], [_, control]]) = measure(Failure::SelfHit, place, RAYS)
             else {

@@ -2,9 +2,9 @@
 //! cannot be seen. Truth: 1 in every pixel.
 
 use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, BxdfSample, LambertianReflection};
-use lobe::film::Picture;
 use lobe::geometry::{Frame, reflect, refract};
 use lobe::glam::{UVec2, Vec2, Vec3};
+use lobe::image::Picture;
 use lobe::interaction::SurfaceInteraction;
 use lobe::light::SkyLight;
 use lobe::material::Material;

@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
-use lobe::film::{Filter, Picture};
+use lobe::film::Filter;
 use lobe::glam::{DVec2, DVec3, UVec2, Vec3};
+use lobe::image::Picture;
 use lobe::light::{DistantLight, SkyLight};
 use lobe::scene::{Emission, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings};
 use lobe::{

@@ -1,7 +1,7 @@
 //! The size of a scene and where it stands do not matter.
 
-use lobe::film::Picture;
 use lobe::glam::{UVec2, Vec3};
+use lobe::image::Picture;
 use lobe::light::SkyLight;
 use lobe::scene::{Emission, IntegratorSettings, SamplerKind, SamplerSettings};
 use lobe::{MatteMaterial, PointLight, RenderSettings, Scene, Spectrum, TriangleMesh};

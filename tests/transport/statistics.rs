@@ -1,6 +1,6 @@
 //! What images say about each other and about numbers, with the error that their film states.
 
-use lobe::film::Picture;
+use lobe::image::Picture;
 use lobe::scene::SceneBuilder;
 use lobe::{RenderOptions, RenderSettings, View, render};
 

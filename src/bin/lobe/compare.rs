@@ -1,11 +1,11 @@
-//! `lobe compare`: how far an image is from another one.
+//! `lobe compare`: errors of an image against a reference.
 
 use std::error::Error;
 use std::path::PathBuf;
 
 use clap::Args;
-use lobe::film::write_file;
-use lobe::metrics::{ErrorMap, Errors, Exposures, Image, Viewing, ZTest, z_test};
+use lobe::image::{Image, write_file};
+use lobe::metrics::{ErrorMap, Errors, Exposures, Viewing, ZTest, z_test};
 
 use crate::summary::Summary;
 
@@ -15,13 +15,13 @@ Examples:
   lobe compare a.exr reference.exr --fail-above relmse=1e-3    exit code 1 if it is more
   lobe compare a.exr reference.exr --maps error        error-absolute.png, error-signed.png, error-flip.png
 
-relMSE is the mean of (a - b)² / (b² + 0.01), where b is the reference; PSNR takes 1 for
-the brightest code of PNG files, and the reference's largest value for radiance. FLIP is
-what a viewer sees who flips between both, 0.7 m in front of a 4K screen 0.7 m wide; of
-radiance the worst at several exposures. The Z-test takes the variance layers of both at
-their word: of a few samples, which may agree by chance, they say too little.";
+relMSE is the mean of (a - b)² / (b² + 0.01), where b is the reference. The peak of PSNR is
+1 for PNG files and the reference's largest value for radiance. FLIP is the difference that
+a viewer sees who flips between both images, 0.7 m in front of a 4K screen 0.7 m wide; for
+radiance it is the maximum over several exposures. The Z-test relies on the variance layers
+of both files, which are underestimated where few samples agree by chance.";
 
-/// Tells how far an image is from a reference: MSE, MAE, relMSE, PSNR, FLIP, and whether noise explains it
+/// Compares an image with a reference: MSE, MAE, relMSE, PSNR, FLIP, and whether noise explains the difference
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -29,22 +29,21 @@ pub struct Arguments {
     #[arg(value_name = "IMAGE")]
     image: PathBuf,
 
-    /// What it is compared with
+    /// The reference: .exr, .pfm or .png
     #[arg(value_name = "REFERENCE")]
     reference: PathBuf,
 
-    /// Ends with exit code 1 if a number is larger: mse, rmse, mae, relmse or flip; or psnr is smaller. May be
-    /// repeated
+    /// Exits with code 1 if mse, rmse, mae, relmse or flip is above the value, or psnr below it. May be repeated
     #[arg(long, value_name = "METRIC=VALUE", value_parser = limit)]
     fail_above: Vec<(Metric, f64)>,
 
-    /// Writes three pictures of where they differ, each with a bar that tells what its colours mean:
-    /// PREFIX-absolute.png and PREFIX-signed.png, the mean of the bands, and PREFIX-flip.png
+    /// Writes three error maps, each with a legend: PREFIX-absolute.png and PREFIX-signed.png (means over the
+    /// bands) and PREFIX-flip.png
     #[arg(long, value_name = "PREFIX")]
     maps: Option<PathBuf>,
 }
 
-/// What can be limited.
+/// A number that `--fail-above` can limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Metric {
     Mse,
@@ -69,7 +68,7 @@ fn limit(text: &str) -> Result<(Metric, f64), String> {
     let (name, value) = text.split_once('=').ok_or(expected)?;
     let found = METRICS.iter().find(|(known, _)| name.eq_ignore_ascii_case(known));
     let (_, metric) = *found.ok_or(expected)?;
-    let value: f64 = value.parse().map_err(|_| format!("`{value}` is no number"))?;
+    let value: f64 = value.parse().map_err(|_| format!("`{value}` is not a number"))?;
     if value.is_nan() { Err("a limit cannot be NaN".into()) } else { Ok((metric, value)) }
 }
 
@@ -91,25 +90,28 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     summary.add("image", arguments.image.display());
     summary.add("reference", arguments.reference.display());
     summary.add("size", format!("{}x{} pixels", image.size.x, image.size.y));
-    summary.add("mean", format!("{:+.6e} image less reference", errors.mean));
+    summary.add("mean", format!("{:+.6e} image minus reference", errors.mean));
     summary.add("mse", format!("{:.6e}", errors.mse));
     summary.add("rmse", format!("{:.6e}", errors.rmse()));
     summary.add("mae", format!("{:.6e}", errors.mae));
     summary.add("relmse", format!("{:.6e} mean of (a - b)^2 / (b^2 + 0.01)", errors.rel_mse));
-    summary.add("psnr", format!("{:.4} dB of a peak of {}", errors.psnr(), errors.peak));
+    summary.add("psnr", format!("{:.4} dB for a peak of {}", errors.psnr(), errors.peak));
     let note = match exposures {
         Some(Exposures { start, stop, count }) => {
-            format!(" worst of {count} exposures from {start:+.2} to {stop:+.2} stops")
+            format!(" maximum over {count} exposures from {start:+.2} to {stop:+.2} stops")
         }
         None => String::new(),
     };
     summary.add("flip", format!("{flip:.6}{note}"));
     if let Some(z) = z_test(&image, &reference)? {
         let ZTest { tested, failed, limit, largest: (largest, at), mean_square } = z;
-        summary.add("z-tested", format!("{tested} bands of pixels"));
-        summary.add("z-failed", format!("{failed} beyond {limit:.2} standard errors"));
+        summary.add(
+            "z-tested",
+            format!("{tested} values, one for each band of each pixel with a variance"),
+        );
+        summary.add("z-failed", format!("{failed} above {limit:.2} standard errors"));
         summary.add("z-largest", format!("{largest:.2} at ({}, {})", at.x, at.y));
-        summary.add("z-square", format!("{mean_square:.4} on average, 1 if noise is all"));
+        summary.add("z-square", format!("{mean_square:.4} mean of z^2; noise alone gives 1"));
     }
     if let Some(prefix) = &arguments.maps {
         let absolute = ErrorMap::absolute(&image, &reference)?;

@@ -4,7 +4,8 @@ use std::error::Error;
 
 use clap::Args;
 use lobe::TriangleMesh;
-use lobe::film::{Display, Filter};
+use lobe::film::Filter;
+use lobe::image::Display;
 use lobe::scene::{
     IntegratorSettings, LightStrategy, LoadedScene, RenderSettings, SamplerKind, SamplerSettings,
     View,

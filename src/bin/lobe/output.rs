@@ -1,12 +1,12 @@
-//! [`Output`]: a file that a render writes.
+//! [`Output`]: a picture file to be written.
 
 use std::error::Error;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use lobe::film::{Display, Metadata, OutputError, Picture, check_writable, write_exr, write_png};
+use lobe::image::{Display, Metadata, Picture, WriteError, check_writable, write_exr, write_png};
 
-/// A picture's file, of the format that its name ends in.
+/// A file for the picture. The extension of its name chooses the format.
 pub struct Output {
     pub path: PathBuf,
     pub format: Format,
@@ -19,8 +19,8 @@ pub enum Format {
 }
 
 impl Output {
-    /// The files that the user names, or else NAME.png and NAME.exr for a scene NAME.toml. All of
-    /// them are checked now, so that no render is in vain.
+    /// The files named by the user, or NAME.png and NAME.exr for a scene NAME.toml. All are checked to be writable before
+    /// anything is rendered.
     pub fn all(named: &[PathBuf], scene: &Path) -> Result<Vec<Self>, Box<dyn Error>> {
         if !named.is_empty() {
             return named.iter().map(|path| Self::new(path.clone())).collect();
@@ -55,7 +55,7 @@ impl Output {
         picture: &Picture,
         display: Display,
         metadata: &Metadata,
-    ) -> Result<(), OutputError> {
+    ) -> Result<(), WriteError> {
         match self.format {
             Format::Png => write_png(&self.path, picture, display, metadata),
             Format::Exr => write_exr(&self.path, picture, metadata),

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use clap::value_parser;
-use lobe::film::Metadata;
+use lobe::image::Metadata;
 use lobe::render::Progress;
 use lobe::scene::LoadedScene;
 use lobe::{RenderOptions, render};

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::io::{self, Write};
 
-use lobe::film::Window;
+use lobe::image::Window;
 use lobe::scene::{FilmSettings, Scene};
 
 /// Lines for people and programs alike: a key without blanks, then the value, then its unit if it

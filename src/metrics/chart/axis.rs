@@ -1,63 +1,63 @@
-//! [`Axis`]: from values to places, and where its ticks are.
+//! [`Axis`], and how its values map to positions and ticks.
 
 /// An axis with its title and unit.
 #[derive(Clone, Debug, Default)]
 pub struct Axis {
-    /// What it shows, with the unit.
+    /// The quantity and its unit.
     pub title: String,
-    /// How values are spread along it.
+    /// Linear or logarithmic.
     pub scale: Scale,
-    /// Ticks, where the usual ones would not do.
+    /// Values of the ticks, in position of automatic ones.
     pub ticks: Option<Vec<f64>>,
-    /// What it spans at least.
+    /// A range that the axis covers in any case.
     pub least: Option<(f64, f64)>,
 }
 
-/// How values are spread.
+/// How values map to positions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
-    /// Evenly.
+    /// In proportion.
     #[default]
     Linear,
     /// By their logarithm.
     Log,
 }
 
-/// Half of the lane for zero, as a part of what is above it.
+/// Half of the height of the lane for zero, relative to the rest of the axis.
 const LANE: f64 = 0.06;
 
-/// An axis that knows its ends.
+/// An axis with its range. Positions are values on a linear axis and decimal logarithms on a logarithmic one.
 pub struct Span {
     pub low: f64,
     pub high: f64,
-    /// Where zero stands on a logarithmic axis, if a value is zero.
+    /// Position of zero on a logarithmic axis, if any value is zero.
     pub lane: Option<f64>,
     scale: Scale,
     ticks: Vec<f64>,
 }
 
 impl Span {
-    /// Around all finite values, with some room.
+    /// The range of all finite values, with a margin.
     pub fn new(axis: &Axis, values: impl Iterator<Item = f64>) -> Self {
         let log = axis.scale == Scale::Log;
-        let place = |value: f64| if log { value.log10() } else { value };
+        let position = |value: f64| if log { value.log10() } else { value };
         let (mut low, mut high, mut has_zero) = (f64::INFINITY, f64::NEG_INFINITY, false);
         let least = axis.least.into_iter().flat_map(|(low, high)| [low, high]);
         for value in values.chain(least) {
             has_zero |= log && value == 0.0;
-            let place = place(value);
-            if place.is_finite() {
-                (low, high) = (low.min(place), high.max(place));
+            let position = position(value);
+            if position.is_finite() {
+                (low, high) = (low.min(position), high.max(position));
             }
         }
         if low > high {
             (low, high) = if log { (-1.0, 0.0) } else { (0.0, 1.0) };
         }
-        // A flat line stands in the middle.
+        // A single value is put in the middle.
         let room = if high > low { 0.04 * (high - low) } else { 0.5 };
         (low, high) = (low - room, high + room);
         let ticks = match &axis.ticks {
-            Some(ticks) => ticks.iter().map(|&tick| place(tick)).collect(),
+            Some(ticks) => ticks.iter().map(|&tick| position(tick)).collect(),
             None if log => log_ticks(low, high),
             None => even_ticks(low, high),
         };
@@ -71,8 +71,8 @@ impl Span {
         Self { low, high, lane, scale: axis.scale, ticks }
     }
 
-    /// Where a value stands; `None` for what cannot be shown.
-    pub fn place(&self, value: f64) -> Option<f64> {
+    /// The position of a value; `None` if it cannot be shown.
+    pub fn position(&self, value: f64) -> Option<f64> {
         match self.scale {
             _ if value == f64::INFINITY => Some(self.high),
             Scale::Linear => value.is_finite().then_some(value),
@@ -81,30 +81,31 @@ impl Span {
         }
     }
 
-    /// Places of the ticks.
+    /// Positions of the ticks.
     pub fn ticks(&self) -> &[f64] {
         &self.ticks
     }
 
-    /// What is written at a tick.
-    pub fn label(&self, place: f64) -> String {
+    /// The label of a tick.
+    pub fn label(&self, position: f64) -> String {
         match self.scale {
-            Scale::Linear => plain(place),
-            Scale::Log if self.lane == Some(place) => "0".into(),
+            Scale::Linear => plain(position),
+            Scale::Log if self.lane == Some(position) => "0".into(),
             Scale::Log => {
-                let (exponent, is_whole) = (place.round(), (place - place.round()).abs() < 1e-9);
+                let (exponent, is_whole) =
+                    (position.round(), (position - position.round()).abs() < 1e-9);
                 match exponent {
-                    -3.0..=4.0 => plain(10_f64.powf(place)),
-                    5.0..=7.0 if !is_whole => plain(10_f64.powf(place).round()),
+                    -3.0..=4.0 => plain(10_f64.powf(position)),
+                    5.0..=7.0 if !is_whole => plain(10_f64.powf(position).round()),
                     _ if is_whole => format!("10{}", superscript(exponent as i32)),
-                    _ => format!("{:.0e}", 10_f64.powf(place)),
+                    _ => format!("{:.0e}", 10_f64.powf(position)),
                 }
             }
         }
     }
 }
 
-/// Powers of ten, not more than ten of them; with 2 and 5 between them where there are few.
+/// At most ten powers of ten; on short axes also multiples of them.
 fn log_ticks(low: f64, high: f64) -> Vec<f64> {
     let (first, last) = (low.floor() as i32, high.ceil() as i32);
     let step = ((high - low) / 9.0).ceil().max(1.0) as usize;
@@ -117,7 +118,7 @@ fn log_ticks(low: f64, high: f64) -> Vec<f64> {
     (first..=last).filter(|e| e.rem_euclid(step as i32) == 0).flat_map(decade).collect()
 }
 
-/// Round numbers, five to ten of them.
+/// Five to ten round numbers.
 fn even_ticks(low: f64, high: f64) -> Vec<f64> {
     let rough = (high - low) / 6.0;
     let power = 10_f64.powf(rough.log10().floor());
@@ -127,7 +128,7 @@ fn even_ticks(low: f64, high: f64) -> Vec<f64> {
     (first..=last).map(|n| n as f64 * step).collect()
 }
 
-/// Without what rounding adds.
+/// The number without digits that are rounding errors.
 fn plain(value: f64) -> String {
     let rounded: f64 = format!("{value:.6e}").parse().unwrap_or(value);
     format!("{}", rounded + 0.0)

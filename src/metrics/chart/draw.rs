@@ -1,4 +1,4 @@
-//! Drawing a [`Chart`].
+//! Drawing a [`Chart`] as SVG.
 
 use std::fmt::Write;
 
@@ -10,11 +10,20 @@ const WIDTH: f64 = 600.0;
 const LEFT: f64 = 62.0;
 const RIGHT: f64 = WIDTH - 12.0;
 const PLOT_HEIGHT: f64 = 300.0;
-/// Of a row of the legend.
+/// Height of a row of the legend.
 const ROW: f64 = 18.0;
 
-/// The text of the file.
-pub fn svg(chart: &Chart) -> String {
+impl Chart {
+    /// Number of different styles of lines.
+    pub const STYLES: usize = STYLES;
+
+    /// The chart as the text of an SVG file.
+    pub fn svg(&self) -> String {
+        svg(self)
+    }
+}
+
+fn svg(chart: &Chart) -> String {
     let longest = chart.lines.iter().map(|line| line.name.chars().count()).max().unwrap_or(0);
     let columns = if longest > 24 { 2 } else { 3 };
     let top = 40.0 + ROW * chart.lines.len().div_ceil(columns) as f64;
@@ -28,8 +37,8 @@ pub fn svg(chart: &Chart) -> String {
         css()
     ));
     pen.text("strong", (12.0, 20.0), "start", &chart.title);
-    for (place, line) in chart.lines.iter().enumerate() {
-        let (column, row) = (place % columns, place / columns);
+    for (index, line) in chart.lines.iter().enumerate() {
+        let (column, row) = (index % columns, index / columns);
         let x = 12.0 + column as f64 * (WIDTH - 24.0) / columns as f64;
         let y = 42.0 + ROW * row as f64;
         if !line.is_loose {
@@ -43,17 +52,17 @@ pub fn svg(chart: &Chart) -> String {
     pen.0
 }
 
-/// Text for XML.
+/// Escapes text for XML.
 pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// The text so far.
+/// Appends elements to the text of the file.
 struct Pen(String);
 
 impl Pen {
     fn put(&mut self, element: std::fmt::Arguments) {
-        // A String takes all.
+        // Writing to a String cannot fail.
         let _ = writeln!(self.0, "{element}");
     }
 
@@ -64,7 +73,7 @@ impl Pen {
         ));
     }
 
-    /// Read from the right.
+    /// Text turned by 90 degrees, to be read from bottom to top.
     fn upright(&mut self, class: &str, (x, y): (f64, f64), content: &str) {
         let content = escape(content);
         self.put(format_args!(
@@ -84,9 +93,9 @@ impl Pen {
     }
 
     fn marker(&mut self, style: usize, (x, y): (f64, f64), is_faint: bool) {
-        let (number, faint) = (style % STYLES, if is_faint { " faint" } else { "" });
-        let shape = MARKERS[number];
-        self.put(format_args!(r#"<path class="m{number}{faint}" d="M{x:.1} {y:.1}{shape}"/>"#));
+        let (index, faint) = (style % STYLES, if is_faint { " faint" } else { "" });
+        let shape = MARKERS[index];
+        self.put(format_args!(r#"<path class="m{index}{faint}" d="M{x:.1} {y:.1}{shape}"/>"#));
     }
 
     fn shade(&mut self, top: f64, bottom: f64) {
@@ -96,15 +105,16 @@ impl Pen {
         ));
     }
 
-    /// Axes, and all that stands between them.
+    /// The axes and everything between them.
     fn plot(&mut self, chart: &Chart, top: f64) {
         let bottom = top + PLOT_HEIGHT;
         let (x, y) = spans(chart);
-        let across = |place: f64| LEFT + (place - x.low) / (x.high - x.low) * (RIGHT - LEFT);
-        let up = |place: f64| bottom - (place - y.low) / (y.high - y.low) * PLOT_HEIGHT;
-        let at = |px: f64, py: f64| Some((across(x.place(px)?), up(y.place(py)?)));
+        let across = |position: f64| LEFT + (position - x.low) / (x.high - x.low) * (RIGHT - LEFT);
+        let up = |position: f64| bottom - (position - y.low) / (y.high - y.low) * PLOT_HEIGHT;
+        let at = |px: f64, py: f64| Some((across(x.position(px)?), up(y.position(py)?)));
 
-        let floor = chart.floor.as_ref().and_then(|(height, note)| Some((y.place(*height)?, note)));
+        let floor =
+            chart.floor.as_ref().and_then(|(height, note)| Some((y.position(*height)?, note)));
         if let Some((height, _)) = floor {
             self.shade(up(height), bottom);
         }
@@ -127,16 +137,16 @@ impl Pen {
             self.text("note", (LEFT + 4.0, up(height) + 13.0), "start", note);
         }
         for (value, note) in &chart.marks {
-            let Some(column) = x.place(*value).map(across) else { continue };
+            let Some(column) = x.position(*value).map(across) else { continue };
             self.path("mark", &[(column, top), (column, bottom)]);
             self.upright("note", (column + 12.0, 0.5 * (top + bottom)), note);
         }
-        let front: Vec<_> = chart.front.iter().filter_map(|&(px, py)| at(px, py)).collect();
+        let front: Vec<_> = chart.pareto_front.iter().filter_map(|&(px, py)| at(px, py)).collect();
         self.path("front", &front);
-        // Lines that are zero together stand beside each other.
+        // Points in the lane for zero are moved apart, so that lines do not hide each other.
         let lines = chart.lines.len() as f64;
-        for (number, line) in chart.lines.iter().enumerate() {
-            let aside = (number as f64 - 0.5 * (lines - 1.0)) * (22.0 / lines).min(7.0);
+        for (index, line) in chart.lines.iter().enumerate() {
+            let aside = (index as f64 - 0.5 * (lines - 1.0)) * (22.0 / lines).min(7.0);
             self.draw(line, &|px, py| {
                 let (column, row) = at(px, py)?;
                 let is_zero = y.lane.is_some() && py == 0.0;
@@ -150,10 +160,10 @@ impl Pen {
             line.points.iter().filter_map(|point| Some((point, at(point.x, point.y)?))).collect();
         if !line.is_loose {
             let claimed = shown.iter().filter(|(point, _)| !point.is_faint);
-            self.line(line.style, &claimed.map(|&(_, place)| place).collect::<Vec<_>>());
+            self.line(line.style, &claimed.map(|&(_, at)| at).collect::<Vec<_>>());
         }
         let class = format!("range l{}", line.style % STYLES);
-        for &(&Point { x, range, is_faint, .. }, place) in &shown {
+        for &(&Point { x, range, is_faint, .. }, position) in &shown {
             let end = |y: f64| at(x, y);
             if let Some((low, high)) = range.and_then(|(low, high)| Some((end(low)?, end(high)?))) {
                 for end in [low, high] {
@@ -161,12 +171,12 @@ impl Pen {
                 }
                 self.path(&class, &[low, high]);
             }
-            self.marker(line.style, place, is_faint);
+            self.marker(line.style, position, is_faint);
         }
     }
 }
 
-/// Both axes, around all that is drawn.
+/// Ranges of both axes that hold everything drawn.
 fn spans(chart: &Chart) -> (Span, Span) {
     let points = || chart.lines.iter().flat_map(|line| &line.points);
     let ranges = points().filter_map(|point| point.range).flat_map(|(low, high)| [low, high]);

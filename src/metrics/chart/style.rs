@@ -2,8 +2,8 @@
 
 pub const STYLES: usize = 8;
 
-/// Colours of the lines on light and on dark pages: the first three after Okabe and Ito 2008, the others between them in
-/// hue and apart in lightness. Markers and dashes differ as well.
+/// Colours of the lines on light and on dark pages. The first three follow the colour-blind safe palette of Okabe and Ito
+/// 2008; the others have hues between them and differ in lightness.
 const LINES: [(&str, &str); STYLES] = [
     ("#0072b2", "#56b4e9"),
     ("#d55e00", "#e69f00"),
@@ -17,7 +17,7 @@ const LINES: [(&str, &str); STYLES] = [
 
 const DASHES: [&str; STYLES] = ["", "", "", "", "5 3", "5 3", "2 2.5", "2 2.5"];
 
-/// Paths of the markers around their middle.
+/// SVG paths of the markers, relative to their centre.
 pub const MARKERS: [&str; STYLES] = [
     "m-3.4 0a3.4 3.4 0 1 0 6.8 0a3.4 3.4 0 1 0-6.8 0z",
     "m-3-3h6v6h-6z",
@@ -29,7 +29,7 @@ pub const MARKERS: [&str; STYLES] = [
     "m-3.8-3l3 3l-3 3l.8.8l3-3l3 3l.8-.8l-3-3l3-3l-.8-.8l-3 3l-3-3z",
 ];
 
-/// The rules of a chart. They name its class, since a page may hold several beside other things.
+/// CSS rules of a chart. Each is limited to the class `lobe`, so that charts can be embedded in a page.
 pub fn css() -> String {
     let rules = |dark: bool| {
         let line = |(i, (light, deep)): (usize, &(&str, &str))| {

@@ -1,43 +1,43 @@
-//! [`Curve`]: a method's errors over samples and time.
+//! [`Curve`]: a method's error over samples and time.
 
 use super::{Reference, Run};
 
-/// What the runs of one method say.
+/// Summary of the runs of one method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     /// The method's name.
     pub method: String,
-    /// One for each number of samples, in rising order.
+    /// One point for each number of samples, in rising order.
     pub points: Vec<CurvePoint>,
 }
 
-/// Runs of one method with the same number of samples, which differ by their seeds.
+/// Summary of the runs of one method with the same number of samples and different seeds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurvePoint {
     /// Samples per pixel.
     pub spp: u32,
-    /// How many runs.
+    /// Number of runs.
     pub runs: usize,
-    /// Seconds before the rendering, median.
+    /// Median of the seconds of set-up.
     pub set_up: f64,
-    /// Seconds of rendering, median.
+    /// Median of the seconds of rendering.
     pub seconds: f64,
-    /// The error as a root of relMSE, without the reference's: lower quartile, median, upper quartile. `None` where the
-    /// median is not above the reference's own error.
+    /// Lower quartile, median and upper quartile of the error (root of relMSE), with the reference's own error subtracted.
+    /// `None` if the median is not above the reference's own error.
     pub error: Option<[f64; 3]>,
-    /// The same with the reference's error in it, as it was measured.
+    /// The same as measured, with the reference's own error included.
     pub measured: [f64; 3],
 }
 
 impl CurvePoint {
-    /// Seconds from the beginning to the picture.
+    /// Seconds of set-up and rendering.
     pub fn time(&self) -> f64 {
         self.set_up + self.seconds
     }
 }
 
 impl Curve {
-    /// Collects the runs of the method of that name.
+    /// Summarises the runs of the method with this name.
     pub fn new(method: &str, runs: &[Run], reference: &Reference) -> Self {
         let own: Vec<&Run> = runs.iter().filter(|run| run.method == method).collect();
         let mut budgets: Vec<u32> = own.iter().map(|run| run.spp).collect();
@@ -61,23 +61,25 @@ impl Curve {
         Self { method: method.into(), points: budgets.into_iter().map(point).collect() }
     }
 
-    /// The points whose error is claimed, each with its median.
+    /// The points with a claimed error, each with its median.
     pub fn claimed(&self) -> impl Iterator<Item = (&CurvePoint, f64)> {
         self.points.iter().filter_map(|point| Some((point, point.error?[1])))
     }
 
-    /// The slope of the error's logarithm over that of the samples, by least squares: -0.5 for independent samples.
+    /// Order of convergence: the slope of log error over log samples, by least squares; -0.5 for independent samples.
     /// `None` for fewer than three claimed points.
     pub fn slope_by_samples(&self) -> Option<f64> {
         slope(self.claimed().map(|(point, error)| (f64::from(point.spp), error)))
     }
 
-    /// The same over the time of rendering alone: set-up would make it steeper for as long as it is most of the time.
+    /// The same over the time of rendering. Set-up is left out, because it would make the slope steeper while it dominates
+    /// the time.
     pub fn slope_by_time(&self) -> Option<f64> {
         slope(self.claimed().map(|(point, error)| (point.seconds, error)))
     }
 
-    /// The error after so many seconds, on straight lines between the logarithms of claimed points; `None` outside.
+    /// The error after this many seconds, interpolated linearly between the logarithms of claimed points; `None` outside
+    /// their range.
     pub fn error_at(&self, time: f64) -> Option<f64> {
         let points: Vec<_> = self.claimed().map(|(point, error)| (point.time(), error)).collect();
         points.windows(2).find_map(|pair| {
@@ -89,35 +91,18 @@ impl Curve {
     }
 }
 
-/// The points that no other point beats in both time and error, of all curves: number of the curve and point, by
-/// rising time (Pareto's front).
-pub fn front(curves: &[Curve]) -> Vec<(usize, &CurvePoint)> {
-    let each =
-        |(number, curve)| Curve::claimed(curve).map(move |(point, error)| (number, point, error));
-    let mut all: Vec<_> = curves.iter().enumerate().flat_map(each).collect();
-    all.sort_by(|a, b| a.1.time().total_cmp(&b.1.time()).then(a.2.total_cmp(&b.2)));
-    let mut best = f64::INFINITY;
-    all.retain(|&(_, _, error)| {
-        let is_better = error < best;
-        best = best.min(error);
-        is_better
-    });
-    all.into_iter().map(|(number, point, _)| (number, point)).collect()
-}
-
-/// Lower quartile, median and upper quartile, on straight lines between the values (definition 7 of Hyndman and Fan
-/// 1996).
+/// Lower quartile, median and upper quartile, interpolated linearly (definition 7 of Hyndman and Fan 1996).
 fn quartiles(values: impl Iterator<Item = f64>) -> [f64; 3] {
     let mut values: Vec<f64> = values.collect();
     values.sort_unstable_by(f64::total_cmp);
     [0.25, 0.5, 0.75].map(|part| {
-        let place = part * (values.len() - 1) as f64;
-        let (low, high) = (values[place.floor() as usize], values[place.ceil() as usize]);
-        low + (place - place.floor()) * (high - low)
+        let index = part * (values.len() - 1) as f64;
+        let (low, high) = (values[index.floor() as usize], values[index.ceil() as usize]);
+        low + (index - index.floor()) * (high - low)
     })
 }
 
-/// Of the least squares line through logarithms.
+/// Slope of the least squares line through the logarithms of points.
 fn slope(points: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
     let points: Vec<(f64, f64)> = points.map(|(x, y)| (x.ln(), y.ln())).collect();
     if points.len() < 3 {

@@ -1,38 +1,39 @@
-//! [`Method`]: a way to render a scene.
+//! [`Method`]: a way to render a scene, to be compared with others.
 
-use super::super::{CompareError, Errors, Image};
+use super::super::{CompareError, Errors};
 use super::{Reference, Run};
 use crate::clock::Stopwatch;
+use crate::image::Image;
 use crate::render::{RenderError, RenderOptions, Rendered, render};
 use crate::scene::{RenderSettings, SamplerSettings, Scene, View};
 
-/// A way to render a scene, to be compared with others.
+/// A way to render a scene: a name and a function from samples per pixel and seed to a picture.
 pub struct Method<'a> {
     name: String,
     build: f64,
     render: Box<Render<'a>>,
 }
 
-/// From samples per pixel and seed to a picture.
+/// Arguments: samples per pixel and seed.
 type Render<'a> = dyn Fn(u32, u64) -> Result<Rendered, RenderError> + 'a;
 
-/// Why there is no run.
+/// Why a run failed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RunError {
-    /// There is no picture.
+    /// The rendering failed.
     #[error(transparent)]
     Render(#[from] RenderError),
     /// The picture lacks samples.
     #[error("the render was cancelled")]
     Cancelled,
-    /// The picture cannot be compared: it is not finite, or has another size than the reference.
+    /// The picture cannot be compared with the reference: it has another size, or values that are not finite.
     #[error(transparent)]
     Compare(#[from] CompareError),
 }
 
 impl<'a> Method<'a> {
-    /// A method of the caller's: `render` gets the samples per pixel and the seed, and each seed has to give another,
-    /// independent picture. `build` is what was done before, in seconds.
+    /// A method that calls `render` with samples per pixel and seed. Different seeds have to give independent pictures.
+    /// `build` is the time that was spent before, in seconds, such as for the tree.
     pub fn new(
         name: impl Into<String>,
         build: f64,
@@ -41,7 +42,7 @@ impl<'a> Method<'a> {
         Self { name: name.into(), build, render: Box::new(render) }
     }
 
-    /// A view of a scene by these settings, but for the number of samples and the seed.
+    /// Renders a view of the scene with these settings, but for the number of samples and the seed.
     pub fn of_settings(
         scene: &'a Scene,
         view: &'a View,
@@ -55,12 +56,12 @@ impl<'a> Method<'a> {
         })
     }
 
-    /// What it is called.
+    /// The name.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// A picture, and the seconds before its rendering and of it.
+    /// Renders a picture; returns it with the seconds of set-up and of rendering.
     ///
     /// # Errors
     /// Those of the rendering, or if it was cancelled.
@@ -75,10 +76,10 @@ impl<'a> Method<'a> {
         Ok((Image::from(&rendered.picture), [set_up, rendered.seconds]))
     }
 
-    /// A picture, with its time and errors.
+    /// Renders a picture and compares it with the reference.
     ///
     /// # Errors
-    /// If there is no picture, or it cannot be compared with the reference.
+    /// If the rendering fails, or the picture cannot be compared with the reference.
     pub fn run(
         &self,
         spp: u32,

@@ -1,30 +1,33 @@
-//! Error against time and samples: what to measure of methods, and what to make of it.
+//! Convergence of rendering methods: error against time and against samples.
 //!
-//! The steps, which the command `lobe chart` takes one after the other:
+//! A measurement has these steps, which `lobe chart` takes in this order:
 //!
-//! 1. A [`Reference`] from independent parts, which tell its own error.
-//! 2. For each [`Method`], number of samples and seed a [`Run`]: time and errors against the reference.
-//! 3. The mean of a method's pictures at the largest number of samples, a [`Pool`], and with it the method's
-//!    [`Bias`].
-//! 4. From the runs of a method its [`Curve`]: medians, quartiles, slopes; from all curves the [`front`].
-//! 5. All of it is a [`Study`], which draws the charts.
+//! 1. Render a [`Reference`] as the mean of independent parts, whose differences give its own error.
+//! 2. For each [`Method`], number of samples and seed, render a picture and keep a [`Run`]: its times and its errors
+//!    against the reference.
+//! 3. Average a method's pictures with the most samples in a [`RunningMean`], and estimate the [`Bias`] from it.
+//! 4. Summarise the runs of a method in a [`Curve`] (medians, quartiles, slopes), and find the [`pareto_front`] of all
+//!    curves.
+//! 5. Draw charts of the whole [`Study`].
 //!
-//! Errors are roots of relMSE, mean of (a - b)² / (b² + 0.01), so that 0.05 is 5 % of a bright pixel. The error of
-//! the reference adds to every measured one and is taken off again: what is left is claimed only where
-//! it is larger than the reference's own.
+//! Errors are square roots of relMSE, the mean of (a - b)² / (b² + 0.01): an error of 0.05 is 5 % of a bright pixel. The
+//! reference's own error is part of every measured one and is subtracted. A result is claimed only where it is larger
+//! than the reference's own error.
 
 mod bias;
 mod curve;
 mod method;
-mod pool;
+mod pareto;
 mod reference;
 mod run;
+mod running_mean;
 mod study;
 
 pub use bias::Bias;
-pub use curve::{Curve, CurvePoint, front};
+pub use curve::{Curve, CurvePoint};
 pub use method::{Method, RunError};
-pub use pool::Pool;
+pub use pareto::pareto_front;
 pub use reference::{Distrust, Reference};
 pub use run::{ParseRunError, Run};
+pub use running_mean::RunningMean;
 pub use study::{Other, Study};

@@ -1,11 +1,11 @@
-//! [`Reference`]: what pictures are measured against, and how far it can be trusted.
+//! [`Reference`]: the picture that others are compared with, and its own error.
 
 use glam::{DVec3, UVec2};
 
-use super::super::{Encoding, Image};
-use super::Pool;
+use super::RunningMean;
+use crate::image::{Encoding, Image};
 
-/// A picture from independent parts, with its own error.
+/// The mean of independent pictures, with an estimate of its own error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
     image: Image,
@@ -16,25 +16,25 @@ pub struct Reference {
 /// Why a reference should not be trusted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Distrust {
-    /// Its error has not spread over the picture: some pixels have rare bright samples, of which more may be missing.
+    /// Most of the squared error is in a few pixels. Those have rare bright samples, and more of them may be missing.
     #[error(
-        "the reference has not converged: {:.0} % of its squared error lie in one pixel in a thousand, the worst at ({}, {}): more of it may be unseen",
+        "the reference has not converged: {:.0} % of its squared error are in one pixel of a thousand, the worst at ({}, {}): rare bright samples may be missing",
         100.0 * .share, .worst.x, .worst.y
     )]
     Rare {
-        /// The share of the squared error that the worst thousandth of the pixels has.
+        /// Share of the squared error in the worst thousandth of the pixels.
         share: f64,
-        /// Column and row of the worst one.
+        /// Column and row of the worst pixel.
         worst: UVec2,
     },
 }
 
 impl Reference {
-    /// From at least two parts, of which each pixel is finite.
-    pub fn new(pool: &Pool, size: UVec2) -> Self {
-        let (pixels, variance) = pool.pixels();
+    /// A reference from the mean of at least two pictures, in which all values are finite.
+    pub fn new(parts: &RunningMean, size: UVec2) -> Self {
+        let (pixels, variance) = parts.pixels();
         let image = Image { size, pixels, variance, encoding: Encoding::Linear };
-        let mut squares: Vec<f64> = pool
+        let mut squares: Vec<f64> = parts
             .moments()
             .map(|(mean, variance)| (variance / weights(mean)).element_sum() / 3.0)
             .collect();
@@ -44,40 +44,40 @@ impl Reference {
         squares.sort_unstable_by(|a, b| b.total_cmp(a));
         let few = squares.len().div_ceil(1000);
         let share = squares[..few].iter().sum::<f64>() / total;
-        let place = worst.unwrap_or(0) as u32;
-        let worst = UVec2::new(place % size.x, place / size.x);
+        let index = worst.unwrap_or(0) as u32;
+        let worst = UVec2::new(index % size.x, index / size.x);
         let distrust = (share > RARE).then_some(Distrust::Rare { share, worst });
         Self { image, floor, distrust }
     }
 
-    /// The picture, with the variance of each pixel.
+    /// The mean, with the variance of each pixel.
     pub fn image(&self) -> &Image {
         &self.image
     }
 
-    /// Its own error, as the root of relMSE: below it nothing can be said of others.
+    /// Its own error, as a root of relMSE. Errors below it are not claimed.
     pub fn floor(&self) -> f64 {
         self.floor
     }
 
-    /// Why not to trust it, if there is a reason.
+    /// A reason not to trust it, if there is one.
     pub fn distrust(&self) -> Option<&Distrust> {
         self.distrust.as_ref()
     }
 
-    /// A measured relMSE without the reference's own part, as a root; `None` where that would be
-    /// less than the reference's own error.
+    /// The root of a measured relMSE with the reference's own part subtracted; `None` if the result is not above the
+    /// reference's own error.
     pub fn claimed(&self, rel_mse: f64) -> Option<f64> {
         let error = (rel_mse - self.floor * self.floor).max(0.0).sqrt();
         (error > self.floor).then_some(error)
     }
 }
 
-/// One pixel in a thousand has this share of the squared error where rare bright samples make up the picture. Of parts
-/// that scatter alike everywhere it has about a hundredth.
+/// Share of the squared error in the worst thousandth of the pixels from which on a reference is not trusted. It is about
+/// 0.01 if the noise is alike everywhere.
 const RARE: f64 = 0.5;
 
-/// What squared differences are divided by.
+/// The denominator of relMSE.
 pub(super) fn weights(reference: DVec3) -> DVec3 {
     reference * reference + 0.01
 }

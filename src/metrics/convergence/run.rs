@@ -1,11 +1,11 @@
-//! [`Run`]: one picture of a method, by its time and its errors.
+//! [`Run`]: time and errors of one picture.
 
 use std::fmt;
 use std::str::FromStr;
 
 use super::super::Errors;
 
-/// What is kept of a picture.
+/// Time and errors of one picture of a method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     /// The method's name.
@@ -14,28 +14,28 @@ pub struct Run {
     pub spp: u32,
     /// The sampler's seed.
     pub seed: u64,
-    /// Seconds before the rendering: the tree, the sampler, the integrator.
+    /// Seconds of set-up: the tree, the sampler, the integrator.
     pub set_up: f64,
     /// Seconds of rendering.
     pub seconds: f64,
-    /// relMSE against the reference, with the reference's own error in it.
+    /// relMSE against the reference, whose own error is included.
     pub rel_mse: f64,
-    /// MSE, likewise.
+    /// MSE against the reference, likewise.
     pub mse: f64,
-    /// Mean of picture less reference.
+    /// Mean of (picture - reference).
     pub mean: f64,
 }
 
-/// Why a line is no run.
+/// A line of `runs.csv` that cannot be parsed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is no line of runs: expected {header}", header = Run::HEADER)]
+#[error("`{0}` is not a line of runs.csv: expected {header}", header = Run::HEADER)]
 pub struct ParseRunError(String);
 
 impl Run {
-    /// The names of the fields, in the order of the lines that [`Display`](fmt::Display) makes.
+    /// Names of the fields, in the order in which [`Display`](fmt::Display) writes them.
     pub const HEADER: &str = "method,spp,seed,set_up_s,render_s,relmse,mse,mean";
 
-    /// The run of a picture with these errors.
+    /// The run of a picture with these errors; `times` are the seconds of set-up and of rendering.
     pub fn new(method: &str, spp: u32, seed: u64, times: [f64; 2], errors: &Errors) -> Self {
         let [set_up, seconds] = times;
         let Errors { rel_mse, mse, mean, .. } = *errors;
@@ -44,7 +44,7 @@ impl Run {
 }
 
 impl fmt::Display for Run {
-    /// A line of comma-separated values; the name stands in quotes, the numbers lose nothing.
+    /// A line of comma-separated values. The name is quoted; numbers are written with all their digits.
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let Self { method, spp, seed, set_up, seconds, rel_mse, mse, mean } = self;
         let method = method.replace('"', "\"\"");

@@ -1,45 +1,45 @@
-//! [`Study`]: all that was measured of a scene, and its charts.
+//! [`Study`]: the results for one scene, and their charts.
 
 use std::fmt::Write;
 
-use super::{Bias, Curve, CurvePoint, Reference, front};
+use super::{Bias, Curve, CurvePoint, Reference, pareto_front};
 use crate::metrics::chart::{Axis, Chart, Line, Point, Scale};
 
-/// Curves of methods against one reference.
+/// Results of several methods against one reference.
 #[derive(Clone, Debug)]
 pub struct Study {
-    /// What the scene is called.
+    /// Name of the scene.
     pub scene: String,
-    /// What all were measured against.
+    /// The reference.
     pub reference: Reference,
-    /// One for each method, in the order of the legend.
+    /// One curve for each method, in the order of the legend.
     pub curves: Vec<Curve>,
-    /// Of each method, if it is known.
+    /// The bias of each method, if it is known.
     pub biases: Vec<Option<Bias>>,
     /// Pictures of other programs.
     pub others: Vec<Other>,
 }
 
-/// A picture from elsewhere, with the time it took.
+/// A picture by another program, with the time it took.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Other {
     /// Its name in the legend.
     pub label: String,
-    /// Seconds.
+    /// Seconds of its rendering.
     pub seconds: f64,
-    /// relMSE against the reference, with the reference's own error in it.
+    /// relMSE against the reference, whose own error is included.
     pub rel_mse: f64,
 }
 
 const ERROR: &str = "error: root of relMSE (1 = 100 %)";
 
 impl Study {
-    /// Error against time, with the front of what no other method beats.
+    /// Error against time, with the Pareto front.
     pub fn error_by_time(&self) -> Chart {
         let set_ups = self.points().map(|point| point.set_up);
         let set_up = set_ups.fold(f64::INFINITY, f64::min);
         let note = format!("set-up, {set_up:.2} s or more, is part of it");
-        let on_front = front(&self.curves).into_iter();
+        let on_front = pareto_front(&self.curves).into_iter();
         Chart {
             title: format!("{}: error against time", self.scene),
             x: Axis {
@@ -48,14 +48,14 @@ impl Study {
                 ..Axis::default()
             },
             lines: self.lines(Curve::slope_by_time, CurvePoint::time).chain(self.loose()).collect(),
-            // Where it would only push the curves aside, the table has it.
+            // Shown only where it does not compress the rest of the axis; the table has it in any case.
             marks: if self.shortest() < 20.0 * set_up { vec![(set_up, note)] } else { Vec::new() },
-            front: on_front.filter_map(|(_, p)| Some((p.time(), p.error?[1]))).collect(),
+            pareto_front: on_front.filter_map(|(_, p)| Some((p.time(), p.error?[1]))).collect(),
             ..self.chart()
         }
     }
 
-    /// Error against samples in a pixel.
+    /// Error against samples per pixel.
     pub fn error_by_samples(&self) -> Chart {
         let mut budgets: Vec<u32> = self.points().map(|point| point.spp).collect();
         budgets.sort_unstable();
@@ -73,7 +73,7 @@ impl Study {
         }
     }
 
-    /// The error of each method over the least one after the same time.
+    /// The error of each method relative to the smallest one after the same time.
     pub fn error_at_equal_time(&self) -> Chart {
         let least = |time: f64| {
             let errors = self.curves.iter().filter_map(|curve| curve.error_at(time));
@@ -107,7 +107,7 @@ impl Study {
         }
     }
 
-    /// A line for each method and number of samples, comma-separated, under a line of names.
+    /// All points as comma-separated values, with a header line.
     pub fn csv(&self) -> String {
         let mut csv = String::from(
             "method,spp,runs,set_up_s,render_s,error_q1,error_median,error_q3,measured_median,reference_error,bias\n",
@@ -149,7 +149,7 @@ impl Study {
         self.points().map(CurvePoint::time).fold(f64::INFINITY, f64::min)
     }
 
-    /// What both charts of errors have in common.
+    /// Common parts of both charts of errors.
     fn chart(&self) -> Chart {
         let floor = self.reference.floor();
         let note = format!("below the reference's own error of {floor:.2e} nothing is claimed");
@@ -194,7 +194,7 @@ impl Study {
     }
 
     fn loose(&self) -> impl Iterator<Item = Line> {
-        self.others.iter().enumerate().map(|(number, other)| {
+        self.others.iter().enumerate().map(|(index, other)| {
             let error = self.reference.claimed(other.rel_mse);
             let point = Point {
                 is_faint: error.is_none(),
@@ -202,7 +202,7 @@ impl Study {
             };
             Line {
                 name: other.label.clone(),
-                style: self.curves.len() + number,
+                style: self.curves.len() + index,
                 is_loose: true,
                 points: vec![point],
             }

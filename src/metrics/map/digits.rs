@@ -1,8 +1,8 @@
-//! Numbers drawn in pixels.
+//! A bitmap font for the numbers of a legend.
 
 use glam::UVec2;
 
-/// What can be written, three pixels wide and five high, by rows from the top, the left pixel first.
+/// The glyphs: three pixels wide and five high, row by row from the top, the left pixel in the highest bit.
 const GLYPHS: [(char, u16); 14] = [
     ('0', 0b111_101_101_101_111),
     ('1', 0b010_110_010_010_111),
@@ -20,26 +20,26 @@ const GLYPHS: [(char, u16); 14] = [
     ('e', 0b000_111_111_100_111),
 ];
 
-/// Each of a glyph's pixels is a square of so many.
+/// Side of the square that each of a glyph's pixels is drawn as.
 const SQUARE: u32 = 2;
 pub const HEIGHT: u32 = 5 * SQUARE;
 const STEP: u32 = 4 * SQUARE;
 
-/// How many columns a text takes.
+/// Width of a text in pixels.
 pub fn width(text: &str) -> u32 {
     (text.chars().count() as u32 * STEP).saturating_sub(SQUARE)
 }
 
-/// Writes a number in black, its upper left corner at `at`, into a page of three bands. It has to fit.
+/// Draws a number in black into a page of RGB codes, with its upper left corner at `at`. It has to fit into the page.
 pub fn draw(page: &mut [u8], size: UVec2, at: UVec2, text: &str) {
-    for (place, letter) in text.chars().enumerate() {
+    for (index, letter) in text.chars().enumerate() {
         let Some((_, glyph)) = GLYPHS.iter().find(|(known, _)| *known == letter) else { continue };
         for (bit, square) in (0..15).rev().zip(0..) {
             if glyph >> bit & 1 == 0 {
                 continue;
             }
             let corner = at
-                + UVec2::new(place as u32 * STEP, 0)
+                + UVec2::new(index as u32 * STEP, 0)
                 + SQUARE * UVec2::new(square % 3, square / 3);
             for y in corner.y..corner.y + SQUARE {
                 let start = 3 * (y * size.x + corner.x) as usize;

@@ -1,4 +1,4 @@
-//! [`ErrorMap`]: where two images differ, in colours, with a bar that tells what they mean.
+//! [`ErrorMap`]: the difference of two images in false colours, with a legend.
 
 mod digits;
 mod scale;
@@ -6,29 +6,29 @@ mod scale;
 use glam::UVec2;
 
 use super::errors::check;
-use super::{CompareError, Exposures, Image, Viewing, flip};
-use crate::film::encode_png;
+use super::{CompareError, Exposures, Viewing, flip};
+use crate::image::{Image, encode_png};
 use digits::{HEIGHT, draw, width};
 use scale::{Scale, color};
 
-/// One number for each pixel, to be shown in colours.
+/// One number for each pixel, shown in false colours.
 ///
-/// Dark is zero and light is much; of signed numbers blue is negative and red is positive. Both scales are even
-/// in lightness, so that they stay the same without colours.
+/// Unsigned values go from dark at zero to light; signed ones from blue for negative over nearly white to red for
+/// positive. Lightness changes linearly in both scales, so that they can be read in grey, too.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorMap {
     /// Columns and rows.
     pub size: UVec2,
-    /// One for each pixel, row by row from the top left.
+    /// One value for each pixel, row by row from the top left.
     pub values: Vec<f32>,
     /// Whether values may be negative.
     pub is_signed: bool,
-    /// What the last colour stands for: all beyond it look alike.
+    /// The value of the scale's last colour; larger values get the same colour.
     pub limit: f32,
 }
 
 impl ErrorMap {
-    /// |a - b|, averaged over the bands of each pixel; the last colour is the value that one pixel in a thousand exceeds.
+    /// |a - b|, averaged over the bands of each pixel. The scale ends at the 99.9th percentile.
     ///
     /// # Errors
     /// As [`Errors::between`](super::Errors::between).
@@ -37,7 +37,7 @@ impl ErrorMap {
         Ok(Self::new(image.size, values, false))
     }
 
-    /// a - b, averaged over the bands of each pixel; the last colours are the size that one pixel in a thousand exceeds.
+    /// a - b, averaged over the bands of each pixel. The scale ends at the 99.9th percentile of the absolute value.
     ///
     /// # Errors
     /// As [`Errors::between`](super::Errors::between).
@@ -46,7 +46,7 @@ impl ErrorMap {
         Ok(Self::new(image.size, values, true))
     }
 
-    /// What [`flip`] sees, from 0 to 1, with the exposures that it saw it at.
+    /// The result of [`flip`], from 0 to 1, and the exposures that it used.
     ///
     /// # Errors
     /// As [`Errors::between`](super::Errors::between).
@@ -61,9 +61,9 @@ impl ErrorMap {
 
     fn new(size: UVec2, values: Vec<f32>, is_signed: bool) -> Self {
         let mut sizes: Vec<f32> = values.iter().map(|value| value.abs()).collect();
-        let place = (sizes.len() - 1) * 999 / 1000;
-        let (_, limit, _) = sizes.select_nth_unstable_by(place, f32::total_cmp);
-        // Equal images, or differences in less than a thousandth of the pixels.
+        let index = (sizes.len() - 1) * 999 / 1000;
+        let (_, limit, _) = sizes.select_nth_unstable_by(index, f32::total_cmp);
+        // Images that are equal, or differ in less than a thousandth of the pixels.
         let limit = if *limit > 0.0 { *limit } else { sizes.iter().copied().fold(0.0, f32::max) };
         let limit = if limit > 0.0 { limit } else { 1.0 };
         Self { size, values, is_signed, limit }
@@ -74,13 +74,13 @@ impl ErrorMap {
         self.values.iter().copied().map(f64::from).sum::<f64>() / self.values.len() as f64
     }
 
-    /// The map in a screen's codes of three bands, row by row.
+    /// The false colours as 8-bit sRGB codes: red, green, blue, red, ..., row by row.
     pub fn codes(&self) -> Vec<u8> {
         let code = |&value: &f32| color(self.scale(), value / self.limit);
         self.values.iter().flat_map(code).collect()
     }
 
-    /// The map as a PNG file, with a bar below it that says what its colours mean.
+    /// The map as a PNG file, with a legend below it.
     pub fn png(&self) -> Vec<u8> {
         let UVec2 { x: width, y: height } = self.size.max(UVec2::new(BAR_WIDTH, 1));
         let size = UVec2::new(width, height + BAR_HEIGHT);
@@ -90,7 +90,7 @@ impl ErrorMap {
             page[start..start + codes.len()].copy_from_slice(codes);
         }
         self.draw_bar(&mut page, size, height);
-        // The page has as many codes as it has pixels.
+        // Cannot fail: the page has three codes for each pixel.
         encode_png(size, &page).unwrap_or_default()
     }
 
@@ -98,7 +98,7 @@ impl ErrorMap {
         if self.is_signed { Scale::Diverging } else { Scale::Sequential }
     }
 
-    /// Colours from end to end, with the values of both ends and of the middle.
+    /// The legend: all colours of the scale, and the values at its ends and its middle.
     fn draw_bar(&self, page: &mut [u8], size: UVec2, top: u32) {
         let (left, length) = (MARGIN, size.x - 2 * MARGIN);
         let first = if self.is_signed { -1.0 } else { 0.0 };
@@ -111,20 +111,20 @@ impl ErrorMap {
             }
         }
         let y = top + MARGIN + 12 + 4;
-        for (place, value) in [(0.0, first), (0.5, 0.5 * (1.0 + first)), (1.0, 1.0)] {
+        for (position, value) in [(0.0, first), (0.5, 0.5 * (1.0 + first)), (1.0, 1.0)] {
             let text = label(value * self.limit);
             let room = (length - width(&text)) as f32;
-            draw(page, size, UVec2::new(left + (place * room).round() as u32, y), &text);
+            draw(page, size, UVec2::new(left + (position * room).round() as u32, y), &text);
         }
     }
 }
 
-/// The bar's margins, and the least width that its labels have room in.
+/// The legend's margins, and the smallest width in which its labels fit.
 const MARGIN: u32 = 6;
 const BAR_WIDTH: u32 = 184;
 const BAR_HEIGHT: u32 = MARGIN + 12 + 4 + HEIGHT + MARGIN;
 
-/// A value in two digits.
+/// A value with two significant digits.
 fn label(value: f32) -> String {
     match value.abs() {
         0.0 => "0".into(),

@@ -1,6 +1,8 @@
-//! Colours for numbers.
+//! Colour scales of error maps.
 
-/// Which colours.
+use crate::image::Display;
+
+/// A colour scale.
 #[derive(Clone, Copy)]
 pub enum Scale {
     /// From 0 to 1: dark blue, violet, orange, light yellow.
@@ -9,9 +11,9 @@ pub enum Scale {
     Diverging,
 }
 
-/// The code of a value; beyond the ends it is that of the end.
+/// The sRGB codes of a value, which is clamped to the scale.
 ///
-/// Stops are in Oklab (Ottosson 2020), between which the way is straight, and so is the lightness.
+/// Colours are interpolated linearly between stops in Oklab (Ottosson 2020), so that lightness changes linearly.
 pub fn color(scale: Scale, value: f32) -> [u8; 3] {
     const SEQUENTIAL: [[f32; 3]; 4] =
         [[0.16, 0.0, -0.07], [0.44, 0.10, -0.09], [0.71, 0.10, 0.12], [0.97, -0.03, 0.10]];
@@ -24,14 +26,15 @@ pub fn color(scale: Scale, value: f32) -> [u8; 3] {
 
 fn between(stops: &[[f32; 3]], value: f32) -> [u8; 3] {
     let last = stops.len() - 1;
-    let place = value.clamp(0.0, 1.0) * last as f32;
-    let first = (place as usize).min(last - 1);
-    let part = place - first as f32;
+    let position = value.clamp(0.0, 1.0) * last as f32;
+    let first = (position as usize).min(last - 1);
+    let part = position - first as f32;
     let mix = |i: usize| stops[first][i] + part * (stops[first + 1][i] - stops[first][i]);
     to_srgb([mix(0), mix(1), mix(2)])
 }
 
-/// Ottosson 2020, "A perceptual color space for image processing": the inverse of its two matrices, then sRGB's curve.
+/// From Oklab to sRGB codes: the inverse of the two matrices in Ottosson 2020, "A perceptual color space for image
+/// processing", then the sRGB curve.
 fn to_srgb([lightness, a, b]: [f32; 3]) -> [u8; 3] {
     let l = (lightness + 0.396_337_78 * a + 0.215_803_76 * b).powi(3);
     let m = (lightness - 0.105_561_346 * a - 0.063_854_17 * b).powi(3);
@@ -41,5 +44,5 @@ fn to_srgb([lightness, a, b]: [f32; 3]) -> [u8; 3] {
         -1.268_438 * l + 2.609_757_4 * m - 0.341_319_4 * s,
         -0.004_196_086_3 * l - 0.703_418_6 * m + 1.707_614_7 * s,
     ];
-    linear.map(|band| crate::film::Display::Srgb.code(band))
+    linear.map(|band| Display::Srgb.code(band))
 }

@@ -10,7 +10,8 @@ use super::document::{Document, Fault};
 use super::section::Section;
 use super::value::{Direction, Light, Rotation, Scale};
 use crate::camera::PerspectiveSettings;
-use crate::film::{Display, Filter, Window};
+use crate::film::Filter;
+use crate::image::{Display, Window};
 use crate::scene::{
     Emission, FilmSettings, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings,
 };

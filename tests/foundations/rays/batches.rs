@@ -10,7 +10,7 @@ use crate::common::Rng;
 use crate::common::meshes::{lumpy, placed, soup};
 
 /// A tree, rays, and what each of them hits by itself.
-struct Pool {
+struct RunningMean {
     accel: Accel,
     rays: Vec<Ray>,
     hits: Vec<Hit>,
@@ -31,7 +31,7 @@ fn tiles(eye: Vec3, side: usize) -> impl Iterator<Item = Ray> {
     })
 }
 
-fn pool(test: u64) -> Pool {
+fn pool(test: u64) -> RunningMean {
     let mut rng = Rng::new(test, 0);
     let chips: Vec<[Vec3; 3]> = (0..400)
         .map(|_| {
@@ -51,7 +51,7 @@ fn pool(test: u64) -> Pool {
     rays.extend(none());
     let hits = rays.iter().map(|ray| accel.intersect1(ray)).collect();
     let ends = [tiles, kinds, rays.len()];
-    Pool { accel, rays, hits, ends }
+    RunningMean { accel, rays, hits, ends }
 }
 
 /// Every length up to five times the widest hardware's, and around the powers of two above, of rays that go

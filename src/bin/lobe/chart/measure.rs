@@ -1,10 +1,10 @@
-//! [`Bench`]: renders whatever the plan wants and the folder does not have yet.
+//! [`Bench`]: renders what the plan asks for and the folder does not hold yet.
 
 use std::error::Error;
 
 use lobe::RenderOptions;
-use lobe::metrics::Image;
-use lobe::metrics::convergence::{Bias, Curve, Method, Pool, Reference, Run};
+use lobe::image::Image;
+use lobe::metrics::convergence::{Bias, Curve, Method, Reference, Run, RunningMean};
 use lobe::scene::{
     IntegratorSettings, LightStrategy, LoadedScene, RenderSettings, SamplerKind, SamplerSettings,
 };
@@ -14,46 +14,46 @@ use super::methods::with_strategy;
 use super::plan::{Cost, Plan};
 use super::steps::Steps;
 
-/// The methods of a chart, and where it stands.
+/// The methods of a chart, and where its results are stored.
 pub struct Bench<'a> {
     pub loaded: &'a LoadedScene,
     pub methods: Vec<Method<'a>>,
-    /// Of each method.
+    /// Settings of each method.
     pub settings: Vec<RenderSettings>,
-    /// What the reader has to know.
+    /// Remarks for the report.
     pub notes: Vec<String>,
     pub options: RenderOptions<'a>,
     pub folder: Folder,
     pub is_quiet: bool,
 }
 
-/// What the plan has to keep to.
+/// What the user asked for.
 pub struct Limits {
-    /// Numbers of samples; where there are none, as many as the time allows.
+    /// Numbers of samples per pixel; if empty, as many powers of two as the time allows.
     pub budgets: Vec<u32>,
     pub seconds: f64,
     pub seeds: u32,
-    /// Samples of the reference, if not the usual number.
+    /// Samples per pixel of the reference, in place of the default.
     pub reference: Option<u32>,
     pub fresh: bool,
 }
 
-/// What came out.
+/// The results.
 pub struct Measured {
     pub reference: Reference,
     pub curves: Vec<Curve>,
     pub biases: Vec<Option<Bias>>,
-    /// How far the reference is from the mean of another estimator.
+    /// Difference between the reference and the mean of another estimator.
     pub check: Bias,
     pub plan: Plan,
 }
 
-/// Seeds of the reference and of its check, from the scene's on: far from those of the methods.
+/// Offsets from the scene's seed, so that the reference and its check use other seeds than the methods.
 const REFERENCE_SEEDS: u64 = 1_000_000;
 const CHECK_SEEDS: u64 = 2_000_000;
 
 impl<'a> Bench<'a> {
-    /// Renders what is missing.
+    /// Renders what is missing, and evaluates all of it.
     pub fn measure(&mut self, limits: &Limits) -> Result<Measured, Box<dyn Error>> {
         let (costs, print) = self.try_out()?;
         let [reference, check] = self.truths();
@@ -69,24 +69,24 @@ impl<'a> Bench<'a> {
         let steps = Steps::new(plan.seconds(&costs, truth_costs), done, self.is_quiet);
         let all = plan.seeds as usize * plan.budgets.len() * self.methods.len();
         steps.say(format!(
-            "{} methods, {:?} samples, {} seeds: {} of {all} pictures are there",
+            "{} methods, {:?} samples, {} seeds: {} of {all} pictures exist",
             self.methods.len(),
             plan.budgets,
             plan.seeds,
             runs.len()
         ));
         let truth = |name: &str, method: &Method, parts: u32, spp: u32, seeds: u64, cost: Cost| {
-            let mut pool = self.folder.pool(name)?;
-            while pool.count() < parts {
-                steps.begin(format!("{name}, part {} of {parts}", pool.count() + 1));
-                let (image, _) = method.render(spp, seed + seeds + u64::from(pool.count()))?;
-                self.folder.add(name, &mut pool, &image)?;
+            let mut mean = self.folder.mean(name)?;
+            while mean.count() < parts {
+                steps.begin(format!("{name}, part {} of {parts}", mean.count() + 1));
+                let (image, _) = method.render(spp, seed + seeds + u64::from(mean.count()))?;
+                self.folder.add(name, &mut mean, &image)?;
                 steps.done(cost.of(spp));
             }
-            Ok::<Pool, Box<dyn Error>>(pool)
+            Ok::<RunningMean, Box<dyn Error>>(mean)
         };
         let size = self.loaded.view.film().window().size();
-        let pool = truth(
+        let parts = truth(
             "reference",
             &reference,
             Plan::PARTS,
@@ -94,12 +94,12 @@ impl<'a> Bench<'a> {
             REFERENCE_SEEDS,
             truth_costs[0],
         )?;
-        let reference = Reference::new(&pool, size);
-        let pool =
+        let reference = Reference::new(&parts, size);
+        let parts =
             truth("check", &check, Plan::CHECK_PARTS, plan.most(), CHECK_SEEDS, truth_costs[1])?;
         let all = f64::from(Plan::PARTS) * f64::from(plan.part_spp);
         let check = Bias::new(
-            &pool,
+            &parts,
             &reference,
             f64::from(Plan::CHECK_PARTS) * f64::from(plan.most()) / all,
         );
@@ -108,17 +108,18 @@ impl<'a> Bench<'a> {
         steps.clear();
         let curve = |method: &Method| Curve::new(method.name(), &runs, &reference);
         let curves = self.methods.iter().map(curve).collect();
-        let bias = |number: usize| -> Result<Option<Bias>, Box<dyn Error>> {
-            let pool = self.folder.pool(&self.mean_name(number))?;
-            let part = f64::from(pool.count()) * f64::from(plan.most()) / all;
-            Ok((pool.count() > 1).then(|| Bias::new(&pool, &reference, part)))
+        let bias = |index: usize| -> Result<Option<Bias>, Box<dyn Error>> {
+            let mean = self.folder.mean(&self.mean_name(index))?;
+            let part = f64::from(mean.count()) * f64::from(plan.most()) / all;
+            Ok((mean.count() > 1).then(|| Bias::new(&mean, &reference, part)))
         };
         let biases = (0..self.methods.len()).map(bias).collect::<Result<_, _>>()?;
         Ok(Measured { reference, curves, biases, check, plan })
     }
 
-    /// One picture of each method: what it costs, and what it looks like. Methods that give the same bits as one before, by the
-    /// same sampler, are the same and left out.
+    /// Renders one picture with each method. Returns their costs and a checksum of version, threads, settings and pictures,
+    /// by which a plan is recognised. Methods that give the same bits as an earlier one with the same sampler are
+    /// duplicates and removed.
     fn try_out(&mut self) -> Result<(Vec<Cost>, u32), Box<dyn Error>> {
         let (mut images, mut costs): (Vec<(SamplerSettings, Image)>, Vec<Cost>) =
             (Vec::new(), Vec::new());
@@ -134,11 +135,15 @@ impl<'a> Bench<'a> {
             if let Some(same) =
                 images.iter().position(|known| known.0 == sampler && known.1 == image)
             {
-                let note = format!("{} does here what {} does", method.name(), kept[same].name());
+                let note = format!(
+                    "{} gives the same pictures as {} here, and is left out",
+                    method.name(),
+                    kept[same].name()
+                );
                 self.notes.push(note);
                 continue;
             }
-            // What a picture of few samples does not show is in the settings.
+            // The settings, too: a picture of few samples may not show all differences.
             print.update(format!("{} {sampler:?} {integrator:?}", method.name()).as_bytes());
             for band in image.pixels.iter().flat_map(|pixel| pixel.to_array()) {
                 print.update(&band.to_bits().to_le_bytes());
@@ -152,8 +157,8 @@ impl<'a> Bench<'a> {
         Ok((costs, print.finalize()))
     }
 
-    /// The reference's estimator, light and surface sampling weighed against each other, without roulette, by Sobol points
-    /// in one set; and another one to check it by, light sampling alone with independent samples.
+    /// The methods for the reference and for its check: multiple importance sampling with Sobol points in one set, and
+    /// light sampling alone with independent samples; both without roulette.
     fn truths(&self) -> [Method<'a>; 2] {
         let by = |name: &str, kind, strategy| {
             let sampler = SamplerSettings { kind, replicates: 1, ..self.loaded.settings.sampler };
@@ -170,7 +175,7 @@ impl<'a> Bench<'a> {
         ]
     }
 
-    /// The plan of the folder, or a new one.
+    /// The plan in the folder if it fits what the user asked for, or a new one.
     fn agree(
         &self,
         limits: &Limits,
@@ -181,7 +186,7 @@ impl<'a> Bench<'a> {
         let Limits { budgets, seconds, seeds, reference, fresh } = limits;
         let with = |budgets| Plan::new(budgets, *seeds, *reference, print);
         if !fresh && let Some(plan) = self.folder.plan()? {
-            // What was not asked for may be as it is there.
+            // Limits that the user did not give are taken from the stored plan.
             let budgets = if budgets.is_empty() { &plan.budgets } else { budgets };
             let mut asked = with(budgets.clone());
             if reference.is_none() {
@@ -191,8 +196,8 @@ impl<'a> Bench<'a> {
                 Ok(plan)
             } else {
                 Err(format!(
-                    "`{}` holds a chart of another scene, or with other settings: choose another folder by -o, \
-                     or begin anew by --fresh",
+                    "`{}` holds a chart of another scene, or with other settings: choose another folder with -o, \
+                     or start again with --fresh",
                     self.folder.join("plan.toml").display()
                 )
                 .into())
@@ -206,7 +211,7 @@ impl<'a> Bench<'a> {
         Ok(plan)
     }
 
-    /// Budget by budget and seed by seed the methods take turns, so that a busy machine is no disadvantage to one of them.
+    /// The methods take turns for each number of samples and seed, so that other load on the machine affects all alike.
     fn run_all(
         &self,
         plan: &Plan,
@@ -216,9 +221,9 @@ impl<'a> Bench<'a> {
         steps: &Steps,
     ) -> Result<Vec<Run>, Box<dyn Error>> {
         for &spp in &plan.budgets {
-            for number in 0..u64::from(plan.seeds) {
-                let seed = self.loaded.settings.sampler.seed + 1 + number;
-                for (place, method) in self.methods.iter().enumerate() {
+            for run_index in 0..u64::from(plan.seeds) {
+                let seed = self.loaded.settings.sampler.seed + 1 + run_index;
+                for (index, method) in self.methods.iter().enumerate() {
                     let is_known = |run: &Run| {
                         run.method == method.name() && run.spp == spp && run.seed == seed
                     };
@@ -228,20 +233,20 @@ impl<'a> Bench<'a> {
                     steps.begin(format!(
                         "{}, {spp} spp, seed {} of {}",
                         method.name(),
-                        number + 1,
+                        run_index + 1,
                         plan.seeds
                     ));
                     let (run, image) = method
                         .run(spp, seed, reference)
                         .map_err(|error| format!("{}, {spp} samples: {error}", method.name()))?;
-                    let mean = self.mean_name(place);
-                    // One more than there are runs was kept if the end came between both.
-                    if spp == plan.most() && u64::from(self.folder.count(&mean)) == number {
-                        let mut pool = self.folder.pool(&mean)?;
-                        self.folder.add(&mean, &mut pool, &image)?;
+                    let name = self.mean_name(index);
+                    // The mean has one picture more than there are runs if an interruption came between both.
+                    if spp == plan.most() && u64::from(self.folder.count(&name)) == run_index {
+                        let mut mean = self.folder.mean(&name)?;
+                        self.folder.add(&name, &mut mean, &image)?;
                     }
                     self.folder.add_run(&run)?;
-                    steps.done(costs[place].of(spp));
+                    steps.done(costs[index].of(spp));
                     runs.push(run);
                 }
             }
@@ -249,17 +254,17 @@ impl<'a> Bench<'a> {
         Ok(runs)
     }
 
-    fn mean_name(&self, place: usize) -> String {
-        format!("{}-{}", place + 1, self.methods[place].name())
+    fn mean_name(&self, index: usize) -> String {
+        format!("{}-{}", index + 1, self.methods[index].name())
     }
 
     fn cost_of(&self, run: &Run, costs: &[Cost]) -> f64 {
-        let place = self.methods.iter().position(|method| method.name() == run.method);
-        place.map_or(0.0, |place| costs[place].of(run.spp))
+        let index = self.methods.iter().position(|method| method.name() == run.method);
+        index.map_or(0.0, |index| costs[index].of(run.spp))
     }
 }
 
-/// What a method costs, from one sample and from four; the first picture only warms up.
+/// Measures a method's cost with one and with four samples per pixel, after a warm-up.
 fn cost(method: &Method) -> Result<Cost, Box<dyn Error>> {
     let time = |spp| Ok::<f64, Box<dyn Error>>(method.render(spp, 0)?.1[1]);
     time(1)?;

@@ -1,4 +1,4 @@
-//! Which methods are charted: those that a user might choose from, or a list from a file.
+//! The methods of a chart: all that a user could choose between, or a list from a file.
 
 use std::error::Error;
 use std::fs;
@@ -11,7 +11,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::scene::SceneArguments;
 
-/// A name, and what it stands for.
+/// A method: name and settings.
 pub type Named = (String, RenderSettings);
 
 const SAMPLERS: [(SamplerKind, &str); 4] = [
@@ -28,8 +28,7 @@ const STRATEGIES: [(LightStrategy, &str); 4] = [
     (LightStrategy::Bsdf, "bsdf"),
 ];
 
-/// All samplers with the scene's integrator; and with Sobol points the other ways to find light, and the other choice of
-/// roulette.
+/// Each sampler with the scene's integrator; and with Sobol points each other light strategy, and roulette switched.
 pub fn usual(settings: RenderSettings) -> Vec<Named> {
     let RenderSettings { sampler, integrator } = settings;
     let with = |kind, integrator| RenderSettings {
@@ -53,7 +52,7 @@ pub fn usual(settings: RenderSettings) -> Vec<Named> {
     all
 }
 
-/// The integrator with another strategy, if it has one.
+/// The integrator with another light strategy, if it has one.
 pub fn with_strategy(integrator: IntegratorSettings, to: LightStrategy) -> IntegratorSettings {
     match integrator {
         IntegratorSettings::Chapter { .. } => integrator,
@@ -64,7 +63,7 @@ pub fn with_strategy(integrator: IntegratorSettings, to: LightStrategy) -> Integ
     }
 }
 
-/// The methods of a file: a table `[methods]`, in which each name has a list of what `--set` takes.
+/// Reads methods from a TOML file: a table `[methods]` in which each name has a list of settings as for `--set`.
 pub fn read(path: &Path, scene: &SceneArguments) -> Result<Vec<Named>, Box<dyn Error>> {
     let shown = path.display();
     let text =
@@ -83,40 +82,42 @@ pub fn read(path: &Path, scene: &SceneArguments) -> Result<Vec<Named>, Box<dyn E
     let methods = match table.get_ref().iter().next() {
         Some((key, value)) if key.get_ref() == "methods" && table.get_ref().len() == 1 => value,
         Some((key, _)) => return Err(wrong(&format!("unknown table `{}`", key.get_ref())).into()),
-        None => return Err(wrong("there is nothing in it").into()),
+        None => return Err(wrong("it is empty").into()),
     };
     let DeValue::Table(methods) = methods.get_ref() else {
-        return Err(wrong("`methods` is no table").into());
+        return Err(wrong("`methods` is not a table").into());
     };
     let mut all = Vec::new();
     for (name, list) in methods {
         let name = name.get_ref();
         let DeValue::Array(list) = list.get_ref() else {
-            return Err(wrong(&format!("`{name}` has no list")).into());
+            return Err(wrong(&format!("`{name}` is not a list")).into());
         };
         let text = |value: &toml::Spanned<DeValue>| match value.get_ref() {
             DeValue::String(text) => Some(text.to_string()),
             _ => None,
         };
         let own: Option<Vec<String>> = list.iter().map(text).collect();
-        let own = own.ok_or_else(|| wrong(&format!("the list of `{name}` holds no texts")))?;
+        let own = own.ok_or_else(|| {
+            wrong(&format!("the list of `{name}` has values that are not strings"))
+        })?;
         let is_allowed =
             |set: &&String| ["sampler.", "integrator."].iter().any(|p| set.starts_with(p));
         if let Some(other) = own.iter().find(|set| !is_allowed(set)) {
             let what = format!(
-                "`{name}` sets `{other}`, but methods differ in `sampler.` and `integrator.` alone"
+                "`{name}` sets `{other}`, but methods can only set `sampler.` and `integrator.`"
             );
             return Err(wrong(&what).into());
         }
         if name.chars().any(char::is_control) || name.len() > 80 {
             return Err(
-                wrong(&format!("{name:?} is no name of one line and up to 80 letters")).into()
+                wrong(&format!("{name:?} is not a name of one line and at most 80 bytes")).into()
             );
         }
         let is_planned =
             |set: &&String| ["sampler.spp", "sampler.seed"].iter().any(|p| set.starts_with(p));
         if let Some(other) = own.iter().find(is_planned) {
-            let what = format!("`{name}` sets `{other}`, which --budgets and --seeds decide on");
+            let what = format!("`{name}` sets `{other}`, which is chosen by --budgets and --seeds");
             return Err(wrong(&what).into());
         }
         let mut overrides = scene.overrides();
@@ -125,5 +126,5 @@ pub fn read(path: &Path, scene: &SceneArguments) -> Result<Vec<Named>, Box<dyn E
             .map_err(|error| format!("{shown}: method `{name}`: {error}"))?;
         all.push((name.to_string(), settings));
     }
-    if all.is_empty() { Err(wrong("there is no method in it").into()) } else { Ok(all) }
+    if all.is_empty() { Err(wrong("[methods] is empty").into()) } else { Ok(all) }
 }

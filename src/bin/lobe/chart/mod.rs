@@ -1,4 +1,4 @@
-//! `lobe chart`: error against time and samples, of all methods that a scene could be rendered by.
+//! `lobe chart`: error against time and samples, for all methods that could render a scene.
 
 mod folder;
 mod measure;
@@ -15,8 +15,9 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, value_parser};
+use lobe::image::{Encoding, Image};
+use lobe::metrics::Errors;
 use lobe::metrics::convergence::{Method, Other};
-use lobe::metrics::{Encoding, Errors, Image};
 use lobe::scene::read_settings;
 use lobe::{RenderOptions, Spectrum};
 
@@ -27,20 +28,20 @@ use measure::Bench;
 const EXAMPLES: &str = r#"Examples:
   lobe chart dragon-sky.toml                            five minutes, then dragon-sky-chart/index.html
   lobe chart dragon-sky.toml --time 60 --set film.resolution=[128,128]
-  lobe chart scene.toml --methods list.toml             methods of your own, see below
-  lobe chart --stability                                where methods fail, in about 20 s
+  lobe chart scene.toml --methods list.toml             your own methods, see below
+  lobe chart --stability                                where methods fail numerically, in about 20 s
   lobe chart scene.toml --add "Mitsuba, 64 spp=other.exr,5.6"
 
-A list of methods is a TOML file. Each has a name and what --set would take for it:
+A list of methods is a TOML file. Each method has a name and a list of settings as for --set:
   [methods]
   "sobol, one set" = ['sampler.type="sobol"', 'sampler.replicates=1']
   "light alone" = ['sampler.type="sobol"', 'integrator.strategy="light"']
 
-Errors are roots of relMSE, mean of (a - b)² / (b² + 0.01), against a reference by other seeds, whose own
-error is taken off and drawn as a floor. A chart that was interrupted goes on where it was, by the plan
-that it had; a finished one is only drawn again, after a short trial of each method. --fresh begins anew."#;
+Errors are roots of relMSE, the mean of (a - b)² / (b² + 0.01), against a reference with other seeds. The
+reference's own error is subtracted and drawn as a floor. An interrupted chart is resumed with its plan; a
+finished one is only drawn again, after a short trial of each method. --fresh starts again."#;
 
-/// Charts error against time and samples for each way to render a scene: SVG, CSV and a page
+/// Charts error against time and samples for each method to render a scene: SVG, CSV and an HTML page
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 #[command(group(ArgGroup::new("what").required(true).args(["path", "stability"])))]
@@ -48,12 +49,12 @@ pub struct Arguments {
     #[command(flatten)]
     scene: Option<SceneArguments>,
 
-    /// Charts where methods fail, in place of a scene: ray origins, edges, lights, sums and so on, the usual
-    /// method beside ours. Ends with exit code 1 if ours has become worse than a stored bound
+    /// Charts where methods fail numerically, in place of a scene: ray origins, edges, lights, sums and so on,
+    /// the common method beside ours. Exits with code 1 if ours exceeds a stored bound
     #[arg(long)]
     stability: bool,
 
-    /// With --stability: so many times the usual number of trials
+    /// With --stability: factor on the number of trials
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = seconds)]
     effort: f64,
 
@@ -65,27 +66,27 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     methods: Option<PathBuf>,
 
-    /// About how long it may take: decides on how many samples there are at most
+    /// Approximate time for all of it, from which the largest number of samples follows
     #[arg(long, value_name = "SECONDS", default_value_t = 300.0, value_parser = seconds)]
     time: f64,
 
-    /// The numbers of samples per pixel, in place of powers of two for as long as there is time
+    /// Numbers of samples per pixel, in place of as many powers of two as --time allows
     #[arg(long, value_name = "N,...", value_delimiter = ',', value_parser = value_parser!(u32).range(1..1 << 24))]
     budgets: Vec<u32>,
 
-    /// How many pictures, by different seeds, for each method and number of samples
+    /// Number of pictures with different seeds for each method and number of samples
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = value_parser!(u32).range(2..=64))]
     seeds: u32,
 
-    /// Samples per pixel of the reference [default: 32 times the largest number that methods have]
+    /// Samples per pixel of the reference [default: 32 times the largest number of the methods]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(8..1 << 27))]
     reference: Option<u32>,
 
-    /// A picture by another program, EXR or PFM, and the seconds it took; may be repeated
+    /// A picture by another program, EXR or PFM, and the seconds that it took; may be repeated
     #[arg(long, value_name = "LABEL=IMAGE,SECONDS", value_parser = added)]
     add: Vec<Added>,
 
-    /// Begins anew, whatever the folder holds
+    /// Starts again, whatever the folder holds
     #[arg(long)]
     fresh: bool,
 
@@ -98,7 +99,7 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// Another program's picture, as it was named.
+/// Another program's picture: the argument of --add.
 #[derive(Clone)]
 struct Added {
     label: String,
@@ -134,7 +135,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         name.push("-chart");
         name.into()
     });
-    // What can be wrong with the arguments comes before what takes time.
+    // Arguments are checked before anything that takes time.
     let named = match &arguments.methods {
         Some(path) => methods::read(path, file)?,
         None => methods::usual(read_settings(&file.path, &file.overrides())?),

@@ -1,20 +1,20 @@
-//! The page of a chart: curves, pictures and numbers in one file.
+//! The HTML page of a chart: curves, pictures and numbers in one file.
 
 use std::error::Error;
 use std::fmt::Write;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use lobe::film::{Display, encode_png};
 use lobe::glam::UVec2;
+use lobe::image::{Display, EncodeError, Image, encode_png};
 use lobe::metrics::chart::{Chart, escape};
 use lobe::metrics::convergence::{Curve, Study};
-use lobe::metrics::{ErrorMap, Errors, Image, Viewing};
+use lobe::metrics::{ErrorMap, Errors, Viewing};
 
 use super::measure::Bench;
 use super::plan::Plan;
 
-/// Rules of all pages.
+/// CSS rules of all pages.
 pub const STYLE: &str = "\
 :root{color-scheme:light dark}
 body{font:15px/1.5 system-ui,-apple-system,'Segoe UI',Roboto,Helvetica,Arial,sans-serif;max-width:900px;margin:0 auto;padding:12px;color:#222;background:#fff}
@@ -31,10 +31,10 @@ img{width:100%;image-rendering:pixelated;display:block}
 @media(prefers-color-scheme:dark){body{color:#e6e6e6;background:#0d1117}td,th{border-color:#30363d}}
 ";
 
-/// Columns and rows of the part of the pictures that is shown.
+/// Columns and rows of the crop of the pictures that is shown.
 const CROP: u32 = 96;
 
-/// The whole page, which needs no other file.
+/// The page. It refers to no other file.
 pub fn html(
     bench: &Bench,
     study: &Study,
@@ -52,8 +52,8 @@ pub fn html(
     let _ = writeln!(
         page,
         "<p>{} × {} pixels, {} triangles, {} threads. Medians of {} seeds; bars are quartiles. Errors are roots of relMSE, \
-         mean of (a − b)² / (b² + 0.01), against a reference of {} samples by other seeds, whose own error of {:.2e} \
-         is taken off. The grey band joins what no other method beats.</p>\n<ul>",
+         the mean of (a − b)² / (b² + 0.01), against a reference of {} samples with other seeds, whose own error of {:.2e} \
+         is subtracted. The grey band is the Pareto front: points that no other method beats in both time and error.</p>\n<ul>",
         size.x,
         size.y,
         bench.loaded.scene.accel().triangle_count(),
@@ -80,7 +80,7 @@ fn threads(bench: &Bench) -> usize {
     bench.options.threads.map_or_else(all, usize::from)
 }
 
-/// A picture of each method after the same time, where they are worst, with its error.
+/// For each method a picture after the same time and its signed error, cropped to where the methods are worst.
 fn pictures(page: &mut String, bench: &Bench, study: &Study) -> Result<(), Box<dyn Error>> {
     let reference = study.reference.image();
     let Some(time) = common_time(&study.curves) else { return Ok(()) };
@@ -97,7 +97,7 @@ fn pictures(page: &mut String, bench: &Bench, study: &Study) -> Result<(), Box<d
         .iter()
         .map(|(_, _, _, image, ..)| ErrorMap::signed(image, reference))
         .collect::<Result<_, _>>()?;
-    // The middle one: the worst method should not hide the errors of all others.
+    // The median: one bad method should not hide the errors of all others.
     let mut limits: Vec<f32> = maps.iter().map(|map| map.limit).collect();
     limits.sort_unstable_by(f32::total_cmp);
     let limit = limits[limits.len() / 2];
@@ -106,8 +106,8 @@ fn pictures(page: &mut String, bench: &Bench, study: &Study) -> Result<(), Box<d
     let _ = writeln!(
         page,
         "<h2>The reference</h2>\n<img class=\"whole\" alt=\"The reference\" src=\"{}\">\n\
-         <h2>About {time:.2} s of each</h2>\n<p>{} × {} pixels from column {} and row {}, where the methods are worst, and \
-         their error: blue is too dark, red too bright, and the full colour is {limit:.1e} or more. FLIP is that of the whole picture.</p>\n\
+         <h2>About {time:.2} s of each</h2>\n<p>A crop of {} × {} pixels from column {} and row {}, where the methods are worst, and \
+         its error: blue is too dark, red too bright; the scale ends at {limit:.1e}. FLIP is for the whole picture.</p>\n\
          <div class=\"grid\">",
         data(reference.size, &display.codes(&reference.pixels))?,
         window.size.x,
@@ -146,14 +146,14 @@ fn figure(
     Ok(())
 }
 
-/// A part of the pictures.
+/// A rectangle that is cut out of the pictures.
 struct Crop {
     at: UVec2,
     size: UVec2,
 }
 
 impl Crop {
-    /// Its codes.
+    /// Its part of a picture's codes.
     fn of(&self, codes: &[u8], size: UVec2) -> Vec<u8> {
         let row = |y: u32| {
             let start = 3 * ((self.at.y + y) * size.x + self.at.x) as usize;
@@ -163,7 +163,7 @@ impl Crop {
     }
 }
 
-/// The part, at multiples of half its size, that has the largest sum of squared errors.
+/// The crop with the largest sum of squared errors, at multiples of half its size.
 fn worst(maps: &[ErrorMap], size: UVec2) -> Crop {
     let part = size.min(UVec2::splat(CROP));
     let sum = |at: UVec2| {
@@ -178,15 +178,15 @@ fn worst(maps: &[ErrorMap], size: UVec2) -> Crop {
         maps.iter().map(|map| (0..part.y).map(|y| row(map, y)).sum::<f64>()).sum::<f64>()
     };
     let step = (part / 2).max(UVec2::ONE);
-    let places = |size: u32, part: u32, step: u32| (0..=size - part).step_by(step as usize);
-    let all = places(size.y, part.y, step.y)
-        .flat_map(|y| places(size.x, part.x, step.x).map(move |x| UVec2::new(x, y)));
+    let starts = |size: u32, part: u32, step: u32| (0..=size - part).step_by(step as usize);
+    let all = starts(size.y, part.y, step.y)
+        .flat_map(|y| starts(size.x, part.x, step.x).map(move |x| UVec2::new(x, y)));
     let at = all.max_by(|&a, &b| sum(a).total_cmp(&sum(b))).unwrap_or_default();
     Crop { at, size: part }
 }
 
-/// A time that all curves span, in the middle of their logarithms; what the fastest takes for its most samples if there is
-/// none.
+/// The geometric middle of the times that all curves cover; if there are none, the time of the fastest method with the
+/// most samples.
 fn common_time(curves: &[Curve]) -> Option<f64> {
     let ends = |curve: &Curve| Some((curve.points.first()?.time(), curve.points.last()?.time()));
     let low = curves.iter().filter_map(ends).map(|(low, _)| low).fold(0.0, f64::max);
@@ -194,12 +194,12 @@ fn common_time(curves: &[Curve]) -> Option<f64> {
     high.is_finite().then(|| if low < high { (low * high).sqrt() } else { high })
 }
 
-/// How many samples a method takes in so long.
+/// Number of samples that a method takes in this time.
 fn samples_in(curve: &Curve, time: f64) -> u32 {
     let (Some(first), Some(last)) = (curve.points.first(), curve.points.last()) else { return 1 };
     let more = f64::from(last.spp - first.spp);
     let each = (last.time() - first.time()) / more;
-    // From one point alone nothing follows, nor from two that took as long.
+    // One point, or points of equal time, say nothing about the time per sample.
     if more == 0.0 || each <= 0.0 {
         return first.spp;
     }
@@ -237,7 +237,7 @@ fn table(page: &mut String, study: &Study) {
     page.push_str("</table>\n");
 }
 
-/// A PNG file as an address.
-fn data(size: UVec2, codes: &[u8]) -> Result<String, String> {
+/// A PNG file as a data URL.
+fn data(size: UVec2, codes: &[u8]) -> Result<String, EncodeError> {
     Ok(format!("data:image/png;base64,{}", STANDARD.encode(encode_png(size, codes)?)))
 }

@@ -1,16 +1,16 @@
-//! [`Plan`]: how many samples, seeds and parts of the reference.
+//! [`Plan`]: the numbers of samples, of seeds, and of parts of the reference.
 
-/// What a method's picture costs, in seconds.
+/// Model of the seconds for a method's picture.
 #[derive(Clone, Copy, Debug)]
 pub struct Cost {
-    /// Whatever the number of samples is.
+    /// Independent of the number of samples.
     pub fixed: f64,
-    /// For each sample per pixel.
+    /// Per sample per pixel.
     pub per_sample: f64,
 }
 
 impl Cost {
-    /// From how long two numbers of samples took.
+    /// Fits two measurements: (samples, seconds).
     pub fn new((few, short): (u32, f64), (many, long): (u32, f64)) -> Self {
         let per_sample = ((long - short) / f64::from(many - few)).max(1e-6);
         Self { fixed: (short - per_sample * f64::from(few)).max(0.0), per_sample }
@@ -21,28 +21,29 @@ impl Cost {
     }
 }
 
-/// What is rendered. A chart that was interrupted goes on with the same plan.
+/// What is rendered. An interrupted chart is resumed with the same plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Samples per pixel, rising.
+    /// Numbers of samples per pixel, rising.
     pub budgets: Vec<u32>,
-    /// How many pictures of each method with each of them.
+    /// Number of pictures for each method and number of samples.
     pub seeds: u32,
     /// Samples per pixel of each part of the reference.
     pub part_spp: u32,
-    /// Tells scene and methods from others.
+    /// Checksum of scene and methods.
     pub print: u32,
 }
 
 impl Plan {
-    /// Parts of the reference, and the samples that each has for one of the largest budget, if nothing else is asked
-    /// for: so its squared error is about a thirtieth of what the best methods reach, or less.
+    /// Number of parts of the reference.
     pub const PARTS: u32 = 8;
+    /// Samples of each part by default, in multiples of the largest budget. The reference's squared error is then at most
+    /// about 1/32 of the best method's.
     const PART_SPP: u32 = 4;
-    /// Parts of the check, which have as many samples as the largest budget.
+    /// Number of parts of the check, which have as many samples as the largest budget.
     pub const CHECK_PARTS: u32 = 4;
 
-    /// A plan with so many samples in the whole of the reference, or as many as suit the budgets.
+    /// A plan with `reference` samples per pixel in all parts of the reference together, or the default.
     pub fn new(budgets: Vec<u32>, seeds: u32, reference: Option<u32>, print: u32) -> Self {
         let most = budgets.last().copied().unwrap_or(1);
         let usual = || Self::PART_SPP.saturating_mul(most);
@@ -50,7 +51,7 @@ impl Plan {
         Self { budgets, seeds, part_spp, print }
     }
 
-    /// One with powers of two as budgets, as many as the time allows; at least up to 4.
+    /// A plan with powers of two as budgets, as many as the time allows, but at least 1, 2 and 4.
     pub fn for_time(
         seconds: f64,
         methods: &[Cost],
@@ -67,7 +68,7 @@ impl Plan {
         self.budgets.last().copied().unwrap_or(1)
     }
 
-    /// What all of it takes.
+    /// Expected seconds for all of it.
     pub fn seconds(&self, methods: &[Cost], [reference, check]: [Cost; 2]) -> f64 {
         let runs = methods.iter().flat_map(|cost| self.budgets.iter().map(|&spp| cost.of(spp)));
         f64::from(self.seeds) * runs.sum::<f64>()
@@ -75,7 +76,7 @@ impl Plan {
             + f64::from(Self::CHECK_PARTS) * check.of(self.most())
     }
 
-    /// The plan as it is kept, in lines of TOML.
+    /// The plan as TOML, to be stored.
     pub fn to_toml(&self) -> String {
         let Self { budgets, seeds, part_spp, print } = self;
         format!(
@@ -84,7 +85,7 @@ impl Plan {
         )
     }
 
-    /// What [`to_toml`](Self::to_toml) wrote.
+    /// Parses the result of [`to_toml`](Self::to_toml).
     pub fn from_toml(text: &str) -> Option<Self> {
         let value =
             |key: &str| text.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(" = "));

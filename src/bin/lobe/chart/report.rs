@@ -1,14 +1,14 @@
-//! What a chart says: files in its folder, and lines on the terminal.
+//! The results of a chart: files in its folder, and a summary on the terminal.
 
 use std::error::Error;
 
-use lobe::metrics::convergence::{Bias, Other, Study, front};
+use lobe::metrics::convergence::{Bias, Other, Study, pareto_front};
 
 use super::measure::{Bench, Measured};
 use super::page;
 use crate::summary::Summary;
 
-/// Writes charts, tables and the page, and says what is in them.
+/// Writes charts, tables and the page, and prints the summary.
 pub fn write(
     bench: &Bench,
     measured: Measured,
@@ -41,8 +41,7 @@ pub fn write(
     let mut summary = Summary::default();
     summary.add("scene", scene);
     summary.add("samples", format!("{:?} per pixel, {} seeds each", plan.budgets, plan.seeds));
-    summary
-        .add("reference", format!("{:.3e} its own error, root of relMSE", study.reference.floor()));
+    summary.add("reference", format!("{:.3e} own error, root of relMSE", study.reference.floor()));
     for curve in &study.curves {
         let slope = curve.slope_by_samples().map_or("no slope".into(), |s| format!("slope {s:.3}"));
         let last = curve.claimed().last();
@@ -51,9 +50,9 @@ pub fn write(
         });
         summary.add("method", format!("{}: {last}, {slope}", curve.method));
     }
-    for (number, point) in front(&study.curves) {
+    for (index, point) in pareto_front(&study.curves) {
         let error = point.error.map_or(0.0, |error| error[1]);
-        let name = &study.curves[number].method;
+        let name = &study.curves[index].method;
         summary.add(
             "best",
             format!("{:.3} s: {name}, {} samples, {error:.3e}", point.time(), point.spp),
@@ -68,35 +67,34 @@ pub fn write(
     Ok(summary.print()?)
 }
 
-/// Sentences on what can be trusted and what not.
+/// Remarks on which results can be trusted.
 fn remarks(bench: &Bench, study: &Study, check: &Bias) -> Vec<String> {
     let mut remarks = bench.notes.clone();
     let Study { reference, curves, biases, .. } = study;
-    let more = "give it more samples by --reference and --fresh";
+    let more = "give it more samples with --reference and --fresh";
     remarks.extend(reference.distrust().map(|distrust| format!("{distrust}; {more}")));
     let points = || curves.iter().flat_map(|curve| &curve.points);
     let hidden = points().filter(|point| point.error.is_none()).count();
     if hidden > 0 {
         remarks.push(format!(
-            "the reference has not converged far enough for {hidden} of {} points, which are below its own error and not \
-             claimed; {more}",
+            "{hidden} of {} points are below the reference's own error and not claimed; {more}",
             points().count()
         ));
     }
     remarks.push(if check.is_certain() {
         format!(
-            "the reference and its check, light sampling alone by independent samples, differ by {:.2e}, which noise \
-             does not explain: one of both is wrong, or has not seen rare bright samples",
+            "the reference differs from its check (light sampling alone, independent samples) by {:.2e}, which noise does \
+             not explain: one of them is wrong, or rare bright samples are missing",
             check.size()
         )
     } else {
-        "the reference and its check, light sampling alone by independent samples, differ by no more than noise".into()
+        "the reference agrees with its check (light sampling alone, independent samples) within noise".into()
     });
     for (curve, bias) in curves.iter().zip(biases) {
         let Some(bias) = bias.filter(Bias::is_certain) else { continue };
         let (mean, error) = bias.mean;
         remarks.push(format!(
-            "{} is biased by {:.2e}: no number of samples takes it away; on average it is {mean:+.2e} off in radiance \
+            "{} is biased by {:.2e}, which more samples do not reduce; its mean is off by {mean:+.2e} in radiance \
              (standard error {error:.1e})",
             curve.method,
             bias.size()

@@ -1,4 +1,4 @@
-//! `lobe chart --stability`: where methods fail, each question with its chart.
+//! `lobe chart --stability`: charts of where methods fail numerically.
 
 use std::error::Error;
 use std::fmt::Write;
@@ -9,13 +9,14 @@ use lobe::metrics::chart::{Axis, Chart, Line, Point, Scale, escape};
 use super::folder::Folder;
 use super::page::STYLE;
 use super::steps::Steps;
-use crate::stability::{ALL, Sweep, all};
+use crate::stability::sweep::{Method, Sweep};
+use crate::stability::{ALL, all};
 use crate::summary::Summary;
 
 /// Measures all sweeps, and writes their charts, a table of all numbers and a page.
 ///
 /// # Errors
-/// When nothing can be written; and after all is, when ours exceeds a stored bound.
+/// When the files cannot be written; or, after they are written, if ours exceeds a stored bound.
 pub fn run(folder: &Path, effort: f64, is_quiet: bool) -> Result<(), Box<dyn Error>> {
     let folder = Folder::open(folder)?;
     let steps = Steps::new(ALL.len() as f64, 0.0, is_quiet);
@@ -55,7 +56,7 @@ pub fn run(folder: &Path, effort: f64, is_quiet: bool) -> Result<(), Box<dyn Err
         return Ok(());
     }
     let list = broken.join("\n  ");
-    Err(format!("{} stored bounds of ours are exceeded:\n  {list}", broken.len()).into())
+    Err(format!("ours exceeds {} stored bounds:\n  {list}", broken.len()).into())
 }
 
 fn head() -> String {
@@ -66,24 +67,24 @@ fn head() -> String {
     )
 }
 
-/// Where a usual method fails and ours does not, in a sentence.
+/// A sentence on where a common method fails and ours does not.
 fn verdict(sweep: &Sweep) -> String {
     let won = sweep.won();
     match (won.first(), won.last()) {
         (Some(first), Some(last)) => format!(
-            "at {} of {} places, from {first:.3e} to {last:.3e}, a usual method fails and ours does not",
+            "a common method fails and ours does not at {} of {} parameters, from {first:.3e} to {last:.3e}",
             won.len(),
             sweep.parameters.len()
         ),
-        _ => "there is no place where a usual method fails and ours does not".into(),
+        _ => "there is no parameter at which a common method fails and ours does not".into(),
     }
 }
 
 fn chart(sweep: &Sweep) -> Chart {
-    // Ours always looks the same.
+    // The style of ours in all charts.
     const OURS: usize = 2;
     let mut usual = [1, 0, 3, 4, 5].into_iter().cycle();
-    let line = |method: &crate::stability::Method| Line {
+    let line = |method: &Method| Line {
         name: method.name.into(),
         style: if method.is_ours { OURS } else { usual.next().unwrap_or(0) },
         is_loose: false,
@@ -110,8 +111,8 @@ fn chart(sweep: &Sweep) -> Chart {
 
 fn add_rows(csv: &mut String, sweep: &Sweep) {
     for method in &sweep.methods {
-        for (place, (parameter, value)) in sweep.parameters.iter().zip(&method.values).enumerate() {
-            let bound = match sweep.bounds[place] {
+        for (index, (parameter, value)) in sweep.parameters.iter().zip(&method.values).enumerate() {
+            let bound = match sweep.bounds[index] {
                 bound if method.is_ours && bound.is_finite() => format!("{bound:e}"),
                 _ => String::new(),
             };

@@ -1,14 +1,14 @@
-//! [`Steps`]: how far a chart is, on a terminal.
+//! [`Steps`]: progress of a chart on the terminal.
 
 use indicatif::{ProgressBar, ProgressStyle};
 
 const TEMPLATE: &str = "{bar:24} {percent:>3} %  {eta} left  {msg}";
 
-/// A bar on stderr over the seconds that the plan expects; nothing at all where that is no terminal.
+/// A progress bar on stderr, measured in the seconds that the plan expects. Nothing is shown if stderr is not a terminal.
 pub struct Steps(Option<ProgressBar>);
 
 impl Steps {
-    /// A bar of which so much is done already.
+    /// A bar over `seconds`, of which `done` are done already.
     pub fn new(seconds: f64, done: f64, is_quiet: bool) -> Self {
         let style =
             ProgressStyle::with_template(TEMPLATE).unwrap_or_else(|_| ProgressStyle::default_bar());
@@ -21,22 +21,22 @@ impl Steps {
         Self((!is_quiet).then(bar))
     }
 
-    /// A line above the bar.
+    /// Prints a line above the bar.
     pub fn say(&self, line: String) {
         self.0.iter().for_each(|bar| bar.println(&line));
     }
 
-    /// What comes next.
+    /// Shows the name of the next step.
     pub fn begin(&self, what: String) {
         self.0.iter().for_each(|bar| bar.set_message(what.clone()));
     }
 
-    /// That it is done, and how long it should have taken.
+    /// Advances the bar by the expected seconds of a step.
     pub fn done(&self, seconds: f64) {
         self.0.iter().for_each(|bar| bar.inc(thousandths(seconds)));
     }
 
-    /// Leaves the terminal as it was.
+    /// Removes the bar.
     pub fn clear(&self) {
         self.0.iter().for_each(ProgressBar::finish_and_clear);
     }

@@ -1,11 +1,11 @@
-//! Frames around a normal that points almost along -z.
+//! Orthonormal frames around normals close to -z.
 
 use std::f64::consts::TAU;
 
 use lobe::geometry::Frame;
 use lobe::glam::{DVec3, Vec3};
 
-use super::Sweep;
+use super::sweep::Sweep;
 use super::tally::{measured, trials, worse};
 
 /// Normals from +z to -z.
@@ -33,10 +33,10 @@ pub fn near_minus_z(effort: f64) -> Sweep {
         title: "Frames that are not orthonormal, by how close the normal is to -z",
         about: format!(
             "Tangents for {around} normals around the z axis, rounded to f32. The error is the largest of all dot \
-             products between the three axes and of what their lengths differ from 1, by f64 from the f32 axes. \
-             Usual: Frisvad 2012, \"Building an Orthonormal Basis from a 3D Unit Vector Without Normalization\", as \
-             printed, which gives up only below n.z = -0.9999999; and Hughes and Möller 1999, which normalises and \
-             does not fail either. Ours is that of Duff et al. 2017."
+             products between the three axes and of the deviations of their lengths from 1, in f64 from the f32 axes. \
+             Common methods: Frisvad 2012, \"Building an Orthonormal Basis from a 3D Unit Vector Without Normalization\", as \
+             printed, which has a special case only below n.z = -0.9999999; and Hughes and Möller 1999, which normalises \
+             and does not fail either. Ours is that of Duff et al. 2017."
         ),
         parameter: "1 + n.z",
         log_parameter: true,
@@ -48,13 +48,14 @@ pub fn near_minus_z(effort: f64) -> Sweep {
     }
 }
 
-/// The unit vector with 1 + n.z = `above` at `turn` of a full turn around z.
+/// The unit vector with 1 + n.z = `above`, at the azimuth of `turn` full turns.
 fn normal(above: f64, turn: f64) -> Vec3 {
     let (sin, cos) = (TAU * turn).sin_cos();
     let across = (above * (2.0 - above)).max(0.0).sqrt();
     DVec3::new(across * cos, across * sin, above - 1.0).as_vec3()
 }
 
+/// Largest deviation from an orthonormal frame.
 fn skew([s, t, n]: [DVec3; 3]) -> f64 {
     let dots = [s.dot(t), t.dot(n), n.dot(s)].map(f64::abs);
     let lengths = [s, t, n].map(|v| (v.length() - 1.0).abs());

@@ -1,15 +1,15 @@
-//! The unit square taken to the unit disk: polar coordinates against concentric squares.
+//! Maps from the unit square to the unit disk: polar and concentric.
 
 use std::f32::consts::TAU;
 
 use lobe::glam::{DVec2, Vec2};
 use lobe::sampling::concentric_disk;
 
-use super::Sweep;
 use super::rng::Rng;
+use super::sweep::Sweep;
 use super::tally::{measured, relative_error, trials, worse};
 
-/// How long and thin cells of the square become, by radius.
+/// Distortion of the maps: the stretch of small cells, by radius.
 pub fn stretch(effort: f64) -> Sweep {
     let mut parameters: Vec<f64> =
         (0..=20).map(|k| 10.0_f64.powf(-3.0 + 0.15 * f64::from(k))).collect();
@@ -20,9 +20,9 @@ pub fn stretch(effort: f64) -> Sweep {
         let mut rng = Rng::new(seed as u64);
         let mut worst = [1.0; 2];
         for _ in 0..around {
-            // Where each map takes to this radius.
+            // Points that each map takes to this radius.
             let ring = DVec2::new(radius * radius, rng.unit());
-            // Not on the square's diagonals, where the derivative jumps.
+            // Not on the square's diagonals, where the derivative is discontinuous.
             let along = 0.98 * radius * (2.0 * rng.unit() - 1.0);
             let sign = if rng.bits() >> 63 == 0 { radius } else { -radius };
             let square = if rng.bits() >> 63 == 0 {
@@ -44,8 +44,8 @@ pub fn stretch(effort: f64) -> Sweep {
         about: format!(
             "A cell's stretch is its longest over its shortest extent, by the singular values of the map's \
              derivative, from differences of f32 results over cells of 2^-8 of the radius; the largest of {around} \
-             cells at each radius. Thin cells undo what stratification has won. The square's diagonals, where the \
-             derivative jumps, are left out. The usual map is polar, r = √u, φ = 2πv; ours is that of Shirley and Chiu 1997."
+             cells at each radius. Thin cells undo stratification. The square's diagonals, where the \
+             derivative jumps, are left out. The common map is polar, r = √u, φ = 2πv; ours is that of Shirley and Chiu 1997."
         ),
         parameter: "radius",
         log_parameter: true,
@@ -57,13 +57,13 @@ pub fn stretch(effort: f64) -> Sweep {
     }
 }
 
-/// The chance of a small disk around the middle.
+/// Probability of a small disk around the centre.
 pub fn centre(_effort: f64) -> Sweep {
     let parameters: Vec<f64> =
         (0..=16).map(|k| 10.0_f64.powf(-6.0 + 0.375 * f64::from(k))).collect();
     let named = [("polar", false), ("concentric_disk (ours)", true)];
     let methods = measured(&parameters, named, |_, radius| {
-        // r grows with u.x in one map, and with the larger distance from the middle in the other one.
+        // r grows with u.x in the polar map, and with the larger coordinate's distance from the centre in the concentric one.
         let rings = first_beyond(1 << 24, radius, |k| polar(Vec2::new(k, 0.0)));
         let squares =
             first_beyond(1 << 23, radius, |k| concentric_disk::sample(Vec2::new(0.5 + k, 0.5)));
@@ -83,13 +83,13 @@ pub fn centre(_effort: f64) -> Sweep {
         measure: "relative error of its chance",
         methods,
         fails_from: 0.5,
-        // Half a spacing of 2⁻²³ at its border.
+        // Half of the float spacing 2⁻²³ at its border.
         bounds: parameters.iter().map(|&radius| 1.5e-7 / radius + 3e-7).collect(),
         parameters,
     }
 }
 
-/// Half planes over the disk, by stratified samples.
+/// Area of the disk on one side of a line, estimated with stratified samples.
 pub fn half_planes(effort: f64) -> Sweep {
     let parameters: Vec<f64> = (1..=8).map(|k| 4.0_f64.powi(k)).collect();
     let runs = trials(1500, effort, 150);
@@ -105,7 +105,7 @@ pub fn half_planes(effort: f64) -> Sweep {
         let mut squares = [0.0; 3];
         for _ in 0..runs {
             let normal = rng.direction().truncate().normalize_or(DVec2::X);
-            // 0.95 is close to the border, where little is cut off.
+            // Up to 0.95, close to the border, where little is cut off.
             let at = 1.9 * rng.unit() - 0.95;
             let is_in = |p: Vec2| u32::from(p.as_dvec2().dot(normal) < at);
             let mut counts = [0; 3];
@@ -131,21 +131,21 @@ pub fn half_planes(effort: f64) -> Sweep {
         title: "Error of a lens cut by an edge, by the number of samples",
         about: format!(
             "The share of the disk on one side of a random line, by jittered samples on a square grid; root mean \
-             square error over up to {runs} lines, truth in closed form. Here is no place where only the usual map \
-             fails: the errors of both fall alike, n^(-3/4), and ours is smaller by a sixth to a quarter."
+             square error over up to {runs} lines, truth in closed form. At no parameter does only the common map \
+             fail: the errors of both fall as n^(-3/4), and ours is smaller by a sixth to a quarter."
         ),
         parameter: "samples",
         log_parameter: true,
         measure: "root mean square error of the share",
         methods,
         fails_from: 0.1,
-        // What ours had, and an eighth more: the polar map breaks most of them.
+        // 9/8 of what ours had; the polar map exceeds most of them.
         bounds: vec![1.64e-1, 5.7e-2, 1.97e-2, 7.1e-3, 2.47e-3, 8.8e-4, 3.09e-4, 1.08e-4],
         parameters,
     }
 }
 
-/// The usual map in polar coordinates (PBRT 3rd edition, section 13.6.2).
+/// The common map in polar coordinates (PBRT 3rd edition, section 13.6.2).
 fn polar(u: Vec2) -> Vec2 {
     let (sin, cos) = (TAU * u.y).sin_cos();
     u.x.sqrt() * Vec2::new(cos, sin)
@@ -153,7 +153,7 @@ fn polar(u: Vec2) -> Vec2 {
 
 /// The ratio of the singular values of a map's derivative, over a cell of 2⁻⁸ of the radius.
 fn cell_stretch(u: DVec2, map: impl Fn(Vec2) -> Vec2) -> f64 {
-    // Numbers that f32 has, and which stay on one side of the square's diagonals.
+    // Representable in f32, and on one side of the square's diagonals.
     let grid = |x: f64| (x * 2.0_f64.powi(24)).round() / 2.0_f64.powi(24);
     let from_middle = (u - 0.5).abs().max_element().min(u.x).max(1e-6);
     let step = grid(from_middle / 256.0).max(2.0_f64.powi(-22));
@@ -167,7 +167,7 @@ fn cell_stretch(u: DVec2, map: impl Fn(Vec2) -> Vec2) -> f64 {
     (sum + difference) / (sum - difference)
 }
 
-/// The first multiple of 2⁻²⁴, counted up to `count`, that a map takes to a radius of at least `radius`.
+/// Index of the first multiple of 2⁻²⁴, up to `count`, that a map takes to at least this radius. Binary search.
 fn first_beyond(count: u32, radius: f64, map: impl Fn(f32) -> Vec2) -> u32 {
     let (mut low, mut high) = (0, count);
     while low < high {

@@ -1,4 +1,4 @@
-//! Rays aimed at the edges and vertices of a closed mesh: whether they pass through it.
+//! Watertightness: rays aimed at edges and vertices of a closed mesh must not pass through it.
 
 use std::collections::BTreeMap;
 
@@ -7,17 +7,16 @@ use lobe::accel::Accel;
 use lobe::geometry::Ray;
 use lobe::glam::{DVec3, Vec3};
 
-use super::Sweep;
 use super::rng::Rng;
+use super::sweep::Sweep;
 use super::tally::{half_decades, measured, trials};
 use super::usual_triangle::moeller_trumbore;
 
-/// Squares along each edge of the cube that the mesh is made of.
+/// Squares along each edge of the cube that is deformed to the mesh.
 const SIDE: i32 = 6;
-/// A ball of this radius around the centre is inside of the mesh, which has a radius of 0.9 to 1.1, even with its
-/// vertices moved by 0.1.
+/// Radius of a ball that is inside the mesh, whose vertices are at a radius of 0.9 to 1.1, for certain.
 const INNER: f64 = 0.6;
-/// The tolerance that Möller and Trumbore print.
+/// The tolerance printed by Möller and Trumbore.
 const EPSILON: f32 = 1e-6;
 
 /// Meshes from tiny to huge.
@@ -28,11 +27,11 @@ pub fn by_scale(effort: f64) -> Sweep {
         title: "Rays that pass through shared edges, by the mesh's scale",
         parameter: "radius of the mesh (scene units)",
         bounds: vec![0.0; parameters.len()],
-        ..sweep(parameters, effort, |scale| Place { scale, distance: 3.0, offset: 0.0 })
+        ..sweep(parameters, effort, |scale| Placement { scale, distance: 3.0, offset: 0.0 })
     }
 }
 
-/// Rays from near and far.
+/// Ray origins near and far.
 pub fn by_distance(effort: f64) -> Sweep {
     let parameters: Vec<f64> = half_decades(0, 6).split_off(1);
     Sweep {
@@ -40,11 +39,11 @@ pub fn by_distance(effort: f64) -> Sweep {
         title: "Rays that pass through shared edges, by the distance of their origins",
         parameter: "distance of the ray's origin (radii of the mesh)",
         bounds: vec![0.0; parameters.len()],
-        ..sweep(parameters, effort, |distance| Place { scale: 1.0, distance, offset: 0.0 })
+        ..sweep(parameters, effort, |distance| Placement { scale: 1.0, distance, offset: 0.0 })
     }
 }
 
-/// Meshes away from the world's origin.
+/// Meshes far from the world's origin.
 pub fn by_offset(effort: f64) -> Sweep {
     let parameters = half_decades(0, 6);
     Sweep {
@@ -52,20 +51,20 @@ pub fn by_offset(effort: f64) -> Sweep {
         title: "Rays through shared edges, by the mesh's distance from the world's origin",
         parameter: "distance of the mesh from the world's origin (radii of the mesh)",
         bounds: vec![0.0; parameters.len()],
-        ..sweep(parameters, effort, |offset| Place { scale: 1.0, distance: 3.0, offset })
+        ..sweep(parameters, effort, |offset| Placement { scale: 1.0, distance: 3.0, offset })
     }
 }
 
-/// Where a mesh is and rays begin.
-struct Place {
+/// Size and position of the mesh and of the ray origins.
+struct Placement {
     scale: f64,
-    /// Of the origins of rays from the mesh's centre, in scales.
+    /// Distance of the ray origins from the mesh's centre, in multiples of `scale`.
     distance: f64,
-    /// Of the mesh from the world's origin, in scales.
+    /// Distance of the mesh from the world's origin, in multiples of `scale`.
     offset: f64,
 }
 
-fn sweep(parameters: Vec<f64>, effort: f64, place: impl Fn(f64) -> Place + Sync) -> Sweep {
+fn sweep(parameters: Vec<f64>, effort: f64, placement: impl Fn(f64) -> Placement + Sync) -> Sweep {
     let rays = trials(20_000, effort, 400);
     let named = [
         ("Möller-Trumbore", false),
@@ -73,7 +72,7 @@ fn sweep(parameters: Vec<f64>, effort: f64, place: impl Fn(f64) -> Place + Sync)
         ("watertight test in the tree (ours)", true),
     ];
     let methods = measured(&parameters, named, |seed, parameter| {
-        leaks(&place(parameter), &mut Rng::new(seed as u64), rays)
+        leaks(&placement(parameter), &mut Rng::new(seed as u64), rays)
             .map(|leaks| f64::from(leaks) / f64::from(rays))
     });
     Sweep {
@@ -81,9 +80,9 @@ fn sweep(parameters: Vec<f64>, effort: f64, place: impl Fn(f64) -> Place + Sync)
         title: "",
         about: format!(
             "Rays from outside of a closed, bumpy mesh of {} triangles, aimed at vertices and points of shared \
-             edges. A ray fails if it hits nothing before it comes to the mesh's middle. Truth: only rays count \
-             that by f64, from the f32 numbers of the ray, go through a ball which the mesh surely encloses. {rays} \
-             rays for each point. The usual test is Möller and Trumbore's of 1997, over all triangles, without a \
+             edges. A ray fails if it hits nothing before it is closest to the mesh's centre. Truth: only rays count \
+             that, in f64 from the f32 ray, go through a ball that the mesh encloses for certain. {rays} \
+             rays for each point. The common test is Möller and Trumbore's of 1997, over all triangles, without a \
              tolerance on the determinant and with the printed one.",
             12 * SIDE * SIDE
         ),
@@ -97,16 +96,16 @@ fn sweep(parameters: Vec<f64>, effort: f64, place: impl Fn(f64) -> Place + Sync)
     }
 }
 
-/// How many of `rays` rays find no surface, by method.
-fn leaks(place: &Place, rng: &mut Rng, rays: u32) -> [u32; 3] {
-    let center = place.scale * place.offset * rng.direction();
-    let mesh = bumpy(rng, |v| (center + place.scale * v).as_vec3());
+/// Number of rays, of `rays`, that find no surface, by method.
+fn leaks(placement: &Placement, rng: &mut Rng, rays: u32) -> [u32; 3] {
+    let center = placement.scale * placement.offset * rng.direction();
+    let mesh = bumpy(rng, |v| (center + placement.scale * v).as_vec3());
     let corners: Vec<[Vec3; 3]> = (0..mesh.indices.len()).map(|t| mesh.corners(t)).collect();
     let accel = Accel::build(std::slice::from_ref(&mesh));
     let mut leaks = [0; 3];
     for _ in 0..rays {
         let (ray, middle) = loop {
-            if let Some(aimed) = aim(place, center, &corners, rng) {
+            if let Some(aimed) = aim(placement, center, &corners, rng) {
                 break aimed;
             }
         };
@@ -123,14 +122,19 @@ fn leaks(place: &Place, rng: &mut Rng, rays: u32) -> [u32; 3] {
     leaks
 }
 
-/// A ray at an edge or vertex, and the t at which it is closest to the centre; `None` if it is not sure to meet the
-/// surface before that.
-fn aim(place: &Place, center: DVec3, corners: &[[Vec3; 3]], rng: &mut Rng) -> Option<(Ray, f64)> {
-    let Place { scale, distance, .. } = *place;
+/// A ray at a random edge or vertex, and the t at which it is closest to the centre; `None` if it is not certain to hit
+/// the surface before that.
+fn aim(
+    placement: &Placement,
+    center: DVec3,
+    corners: &[[Vec3; 3]],
+    rng: &mut Rng,
+) -> Option<(Ray, f64)> {
+    let Placement { scale, distance, .. } = *placement;
     let side = rng.direction();
     let o = (center + scale * distance * side).as_vec3();
     let [a, b, _] = corners[(rng.bits() % corners.len() as u64) as usize].map(Vec3::as_dvec3);
-    // A quarter of them at vertices.
+    // A quarter of the rays are aimed at vertices.
     let share = if rng.bits() >> 62 == 0 { 0.0 } else { rng.unit() };
     let target = a + share * (b - a);
     if (target - center).dot(side) <= 0.0 {
@@ -143,21 +147,21 @@ fn aim(place: &Place, center: DVec3, corners: &[[Vec3; 3]], rng: &mut Rng) -> Op
     (middle > 0.0 && passes_by < INNER * scale).then_some((Ray::new(o, d), middle))
 }
 
-/// A cube of squares, blown up to a sphere and dented, with `place` of its vertices.
-fn bumpy(rng: &mut Rng, place: impl Fn(DVec3) -> Vec3) -> TriangleMesh {
+/// A tessellated cube, projected to a sphere and made bumpy; `vertex_at` places its vertices in the world.
+fn bumpy(rng: &mut Rng, vertex_at: impl Fn(DVec3) -> Vec3) -> TriangleMesh {
     let mut mesh = TriangleMesh::default();
     let mut known = BTreeMap::new();
     for side in 0..6 {
         let (axis, sign) = (side / 2, if side % 2 == 0 { 1 } else { -1 });
         let mut vertex = |i: i32, j: i32| {
-            // Neighbouring sides have the vertices between them in common.
+            // Neighbouring sides share the vertices of their common edge.
             let mut lattice = [0; 3];
             lattice[axis] = sign * SIDE;
             lattice[(axis + 1) % 3] = 2 * i - SIDE;
             lattice[(axis + 2) % 3] = sign * (2 * j - SIDE);
             *known.entry(lattice).or_insert_with(|| {
                 let v = DVec3::from(lattice.map(f64::from)).normalize();
-                mesh.positions.push(place(v * (0.9 + 0.2 * rng.unit())));
+                mesh.positions.push(vertex_at(v * (0.9 + 0.2 * rng.unit())));
                 mesh.positions.len() as u32 - 1
             })
         };

@@ -1,16 +1,16 @@
-//! Spherical rectangles, from specks to nearly half of all directions.
+//! Solid angles of rectangles and samples by solid angle, from 1e-10 sr to nearly 2π.
 
 use lobe::glam::{DVec2, DVec3, Vec2, Vec3};
 use lobe::light::{AreaLight, Light, LightHit};
 use lobe::sampling::SphericalRectangle;
 use lobe::{Spectrum, TriangleMesh};
 
-use super::Sweep;
 use super::rng::Rng;
+use super::sweep::Sweep;
 use super::tally::{half_decades, measured, relative_error, trials, worse};
 use super::usual_rectangle::{UsualRectangle, UsualTriangle};
 
-/// Edges at right angles whose coordinates are whole numbers, and so exact in f32, with their lengths.
+/// Perpendicular edges with integer coordinates, which are exact in f32, and their lengths.
 const FRAMES: [([f32; 3], [f32; 3], f64); 4] = [
     ([1.0, 2.0, 2.0], [2.0, 1.0, -2.0], 3.0),
     ([2.0, 3.0, 6.0], [3.0, -6.0, 2.0], 7.0),
@@ -18,7 +18,7 @@ const FRAMES: [([f32; 3], [f32; 3], f64); 4] = [
     ([4.0, 4.0, 7.0], [1.0, -8.0, 4.0], 9.0),
 ];
 
-/// A rectangle and the eye that sees it.
+/// A rectangle and the point that it is seen from.
 pub struct View {
     pub eye: Vec3,
     pub corner: Vec3,
@@ -26,11 +26,11 @@ pub struct View {
 }
 
 impl View {
-    /// The eye at a height of `distance` edges: above a point of the rectangle if that is below 1, else in any
-    /// direction at a cosine of at least 0.2.
+    /// A random rectangle and an eye `distance` edges away from one of its points: straight above it if that is less than 1,
+    /// else in a random direction at a cosine of at least 0.2.
     fn draw(rng: &mut Rng, distance: f64) -> Self {
         let (x, y, length) = FRAMES[(rng.bits() >> 62) as usize];
-        // Up to four times as long as wide.
+        // Aspect ratios up to 4.
         let edges = [x, y].map(|edge| Vec3::from(edge) * (1 + (rng.bits() >> 62)) as f32);
         let corner = (8.0 * rng.in_cube()).round().as_vec3();
         let [ex, ey] = edges.map(Vec3::as_dvec3);
@@ -46,10 +46,10 @@ impl View {
         Self { eye: eye.as_vec3(), corner, edges }
     }
 
-    /// The solid angle in f64 of the part of the rectangle up to `share` of its first edge.
+    /// The solid angle, in f64, of the part of the rectangle up to the fraction `share` of its first edge.
     ///
-    /// Van Oosterom and Strackee 1983, "The Solid Angle of a Plane Triangle": tan Ω/2 from a triple product, in
-    /// which edges take the place of differences of corners, so that no digits of small angles are lost.
+    /// Van Oosterom and Strackee 1983, "The Solid Angle of a Plane Triangle": tan Ω/2 from a triple product. Edges
+    /// are used in place of differences of corners, so that small angles lose no digits.
     pub fn solid_angle(&self, share: f64) -> f64 {
         let [ex, ey] = self.edges.map(Vec3::as_dvec3);
         let a = self.corner.as_dvec3() - self.eye.as_dvec3();
@@ -58,7 +58,7 @@ impl View {
     }
 }
 
-/// The solid angle of a triangle, half of the parallelogram with these edges.
+/// The solid angle of a triangle; `ex` and `ey` span the parallelogram that it is half of.
 fn solid_angle([a, b, c]: [DVec3; 3], [ex, ey]: [DVec3; 2]) -> f64 {
     let (la, lb, lc) = (a.length(), b.length(), c.length());
     let above = a.dot(ex.cross(ey)).abs();
@@ -66,7 +66,7 @@ fn solid_angle([a, b, c]: [DVec3; 3], [ex, ey]: [DVec3; 2]) -> f64 {
     2.0 * above.atan2(below)
 }
 
-/// Twice what ours had.
+/// Stored bounds: twice what ours had.
 const SAMPLES: [f64; 21] = [
     1.7e-2, 6.4e-3, 1.6e-3, 6.1e-4, 1.9e-4, 5.6e-5, 1.5e-5, 5.7e-6, 2.0e-6, 8.4e-7, 1.1e-6, 4.4e-7,
     4.4e-7, 3.8e-7, 3.9e-7, 4.4e-7, 3.5e-7, 4.0e-7, 3.8e-7, 3.6e-7, 4.6e-7,
@@ -76,7 +76,7 @@ const PARAMETER: &str = "distance of the eye (units of the rectangle, whose edge
 const ABOUT: &str = "Rectangles of many shapes and directions with exact edges, seen from close above a point of \
                      them, under nearly 2π, or farther than their unit from anywhere, down to 1e-10 sr.";
 
-/// The solid angle, as a rectangle by itself tells it.
+/// Solid angles by `SphericalRectangle`.
 pub fn solid_angles(effort: f64) -> Sweep {
     let ours = |View { eye, corner, edges: [ex, ey] }: &View| {
         SphericalRectangle::new(*eye, *corner, *ex, *ey).map_or(f32::NAN, |one| one.solid_angle())
@@ -90,7 +90,7 @@ pub fn solid_angles(effort: f64) -> Sweep {
     }
 }
 
-/// The solid angle that a lamp's densities stand for, as far as it draws by solid angle.
+/// Solid angles by `AreaLight`: the inverse of its density, as far as it samples by solid angle.
 pub fn solid_angles_of_lamps(effort: f64) -> Sweep {
     let ours = |View { eye, corner, edges: [ex, ey] }: &View| {
         let mesh = TriangleMesh::parallelogram(*corner, *ex, *ey);
@@ -106,7 +106,7 @@ pub fn solid_angles_of_lamps(effort: f64) -> Sweep {
     let mut sweep = Sweep {
         name: "rectangles-lamp",
         title: "Error of the solid angle behind a lamp's density, by the eye's distance",
-        // f32 is used between; twice what it gave.
+        // It uses f32 in the middle of the range. Twice what it had.
         bounds: parameters
             .iter()
             .map(|&distance| match distance {
@@ -154,7 +154,7 @@ fn solid_angles_of(
         title: "",
         about: format!(
             "{ABOUT} The largest error of {views} for each point; NaN counts as infinite. Truth is the formula of \
-             Van Oosterom and Strackee 1983 in f64, with edges in its triple product. Usual: Ureña, Fajardo and \
+             Van Oosterom and Strackee 1983 in f64, with edges in its triple product. Common methods: Ureña, Fajardo and \
              King 2013 as printed, and two triangles by Girard's angle excess, both in f32."
         ),
         parameter: PARAMETER,
@@ -167,7 +167,7 @@ fn solid_angles_of(
     }
 }
 
-/// Where samples fall.
+/// Samples by solid angle.
 pub fn samples(effort: f64) -> Sweep {
     let parameters = half_decades(-5, 5);
     let views = trials(20_000, effort, 300);
@@ -195,8 +195,8 @@ pub fn samples(effort: f64) -> Sweep {
             "{ABOUT} A sample for u should have the share u.x of the solid angle to its left, and on its line the \
              share u.y below it; the error is the largest difference of {views} samples for each point, where NaN \
              counts as infinite. Truth is the formula of Van Oosterom and Strackee 1983 in f64, for the f32 point. \
-             Usual: Ureña, Fajardo and King 2013 as printed, in f32. What is left to ours close to the rectangle is \
-             the rounding of the point to f32."
+             Common method: Ureña, Fajardo and King 2013 as printed, in f32. The rest of our error close to the rectangle \
+             is the rounding of the point to f32."
         ),
         parameter: PARAMETER,
         log_parameter: true,
@@ -208,13 +208,13 @@ pub fn samples(effort: f64) -> Sweep {
     }
 }
 
-/// How far a point is from where u should lead, in shares of the solid angle and of its line.
+/// Difference between the position of a sample and u, as fractions of the solid angle and of the line across.
 fn misplaced(view: &View, point: Vec3, u: Vec2) -> f64 {
     let [ex, ey] = view.edges.map(Vec3::as_dvec3);
     let moved = point.as_dvec3() - view.corner.as_dvec3();
     let share = moved.dot(ex) / ex.length_squared();
     let left = view.solid_angle(share.clamp(0.0, 1.0)) / view.solid_angle(1.0);
-    // On the line through the point, the sine of the angle against the foot of the eye is uniform.
+    // Along the line through the point, the sine of the angle from the eye's foot point is uniform.
     let foot = view.eye.as_dvec3() - view.corner.as_dvec3();
     let on_line = foot - share * ex;
     let along = on_line.dot(ey) / ey.length();
@@ -223,7 +223,7 @@ fn misplaced(view: &View, point: Vec3, u: Vec2) -> f64 {
     let y = moved.dot(ey) / ey.length();
     let (h0, h1) = (sine(0.0), sine(ey.length()));
     let below = (sine(y) - h0) / (h1 - h0);
-    // A point beyond the edges is as wrong as that.
+    // Points outside the rectangle are wrong by their distance.
     let beyond = (share - share.clamp(0.0, 1.0)).abs();
     worse(worse((left - f64::from(u.x)).abs(), (below - f64::from(u.y)).abs()), beyond)
 }

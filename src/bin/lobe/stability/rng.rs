@@ -1,4 +1,4 @@
-//! Random numbers that are the same on every platform.
+//! Random numbers, the same on every platform.
 
 use lobe::glam::DVec3;
 
@@ -6,9 +6,9 @@ use lobe::glam::DVec3;
 pub struct Rng(u64);
 
 impl Rng {
-    /// The generator of one place of the sweep.
+    /// The generator for one parameter of a sweep.
     pub fn new(seed: u64) -> Self {
-        // Neighbouring seeds would run through overlapping states: start at a hashed one.
+        // Hashed, because the states of neighbouring seeds would overlap.
         Self(Self(seed).bits())
     }
 
@@ -19,7 +19,7 @@ impl Rng {
         z ^ (z >> 31)
     }
 
-    /// 53 bits in `[0, 1)`.
+    /// Uniform in `[0, 1)`, with 53 bits.
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
@@ -29,7 +29,7 @@ impl Rng {
         DVec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0
     }
 
-    /// A unit vector, uniform over the sphere: by rejection, which needs no sine and cosine.
+    /// A unit vector, uniform over the sphere, by rejection, because sine and cosine differ between platforms.
     pub fn direction(&mut self) -> DVec3 {
         loop {
             let v = self.in_cube();

@@ -1,16 +1,17 @@
 //! Means and variances of many samples.
 
 use lobe::Spectrum;
-use lobe::film::{Film, FilmContents, Variance, Window};
+use lobe::film::{Film, FilmContents, Variance};
 use lobe::glam::UVec2;
+use lobe::image::Window;
 
 use super::rng::Rng;
+use super::sweep::{Method, Sweep};
 use super::tally::{half_decades, measured, relative_error};
-use super::{Method, Sweep};
 
-/// How many samples are added at a time.
+/// Samples that are added at a time.
 const BLOCK: usize = 1000;
-/// Whole numbers of these make the samples of a mean.
+/// Samples of [`means`] are integers over this.
 const UNITS: f64 = (1 << 27) as f64;
 
 /// A film of one pixel.
@@ -39,7 +40,7 @@ pub fn means(effort: f64) -> Sweep {
         while taken < n as u64 {
             block.clear();
             for _ in 0..BLOCK.min((n as u64 - taken) as usize) {
-                // Whole multiples of 2⁻²⁷ with 24 bits: their sum is the truth.
+                // Multiples of 2⁻²⁷ with 24 bits, whose exact sum is the truth.
                 let bits = ((0.099 + 0.002 * rng.unit()) * UNITS) as u32;
                 let x = bits as f32 / UNITS as f32;
                 taken += 1;
@@ -63,9 +64,9 @@ pub fn means(effort: f64) -> Sweep {
         name: "sums-mean",
         title: "Error of a pixel's mean, by the number of samples",
         about: "Values around 0.1, spread by 1 % to both sides, such as a wall in even light gives; whole multiples \
-                of 2^-27, so that truth is their sum as integers. Usual: a sum in f32, which rounds like values the \
-                same way each time, and stands still in the end; and a mean in f32 that is moved by (x - mean) / n. \
-                Ours is a film of one pixel; what is left is the rounding of its mean to f32."
+                of 2^-27, so that truth is their sum as integers. Common methods: a sum in f32, which rounds similar values \
+                in the same direction each time and stagnates in the end; and a mean in f32, updated by \
+                (x - mean) / n. Ours is a film of one pixel; its error is the rounding of the mean to f32."
             .to_owned(),
         parameter: "samples",
         log_parameter: true,
@@ -77,7 +78,7 @@ pub fn means(effort: f64) -> Sweep {
     }
 }
 
-/// The variance of samples that differ little.
+/// The variance of samples with a small standard deviation relative to their mean.
 pub fn variances(effort: f64) -> Sweep {
     let parameters = half_decades(0, 6);
     let n = ((1e5 * effort) as u32).max(1000);
@@ -98,7 +99,7 @@ pub fn variances(effort: f64) -> Sweep {
         title: "Error of a pixel's variance, by how little its samples differ",
         about: format!(
             "{n} samples around a mean of 1000, spread evenly over ±√3 deviations and rounded to f32. Truth is the \
-             variance of the rounded samples by sums of integers of 128 bits. Usual: the difference of the mean \
+             variance of the rounded samples by sums of integers of 128 bits. Common methods: the difference of the mean \
              square and the squared mean, and Welford 1962 in f32. Ours is a film's variance of the mean, times n, \
              after Youngs and Cramer 1971 in f64. The difference in f64 fails too, from 300,000 on."
         ),
@@ -112,13 +113,13 @@ pub fn variances(effort: f64) -> Sweep {
     }
 }
 
-/// Samples around 1000, with `ratio` deviations in it.
+/// Samples with mean 1000 and standard deviation 1000 / `ratio`.
 fn samples(rng: &mut Rng, ratio: f64, n: u32) -> Vec<f32> {
     let half_width = 3.0_f64.sqrt() * 1000.0 / ratio;
     (0..n).map(|_| (1000.0 + half_width * (2.0 * rng.unit() - 1.0)) as f32).collect()
 }
 
-/// The variance, from whole multiples of 2⁻³⁰.
+/// The exact variance, in integers: samples are multiples of 2⁻³⁰.
 fn exact_variance(samples: &[f32]) -> f64 {
     let unit = 2.0_f64.powi(-30);
     let whole = |x: &f32| (f64::from(*x) / unit).round() as i128;
@@ -171,7 +172,7 @@ fn ours(samples: &[f32]) -> f64 {
     film.develop().variance.map_or(f64::NAN, |of_mean| first(&of_mean) * samples.len() as f64)
 }
 
-/// The only pixel's first band.
+/// First band of the only pixel.
 fn first(values: &[Spectrum]) -> f64 {
     values.first().map_or(f64::NAN, |value| f64::from(value.to_array()[0]))
 }

@@ -1,16 +1,16 @@
-//! What all sweeps share: how many trials, at which parameters, and the figures by method.
+//! Shared by all sweeps: numbers of trials, parameters, running on all processors, and errors.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use super::Method;
+use super::sweep::Method;
 
-/// `effort` times the usual number of trials, but at least `least`.
+/// `effort` times the default number of trials, but at least `least`.
 pub fn trials(usual: u32, effort: f64, least: u32) -> u32 {
     ((f64::from(usual) * effort) as u32).max(least)
 }
 
-/// Two values for each power of ten, about half a decade apart: those from 10^`first` to 10^`last`.
+/// 1 and 3 times each power of ten, from 10^`first` to 10^`last`.
 pub fn half_decades(first: i32, last: i32) -> Vec<f64> {
     let mut values: Vec<f64> =
         (first..last).flat_map(|power| [1.0, 3.0].map(|m| m * 10.0_f64.powi(power))).collect();
@@ -18,8 +18,8 @@ pub fn half_decades(first: i32, last: i32) -> Vec<f64> {
     values
 }
 
-/// Calls `measure` with each parameter and its place, on all processors, and sorts what it gives by method. A
-/// method is a name and whether it is ours.
+/// Calls `measure` with each parameter and its index, on all processors, and collects the results by method. A method is
+/// given by its name and whether it is ours.
 pub fn measured<const N: usize>(
     parameters: &[f64],
     named: [(&'static str, bool); N],
@@ -29,9 +29,9 @@ pub fn measured<const N: usize>(
     let work = || {
         let mut rows = Vec::new();
         loop {
-            let place = next.fetch_add(1, Ordering::Relaxed);
-            match parameters.get(place) {
-                Some(&parameter) => rows.push((place, measure(place, parameter))),
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            match parameters.get(index) {
+                Some(&parameter) => rows.push((index, measure(index, parameter))),
                 None => return rows,
             }
         }
@@ -48,7 +48,7 @@ pub fn measured<const N: usize>(
         }
         rows
     });
-    rows.sort_by_key(|(place, _)| *place);
+    rows.sort_by_key(|(index, _)| *index);
     let method = |(i, (name, is_ours)): (usize, (&'static str, bool))| Method {
         name,
         is_ours,
@@ -57,12 +57,12 @@ pub fn measured<const N: usize>(
     named.into_iter().enumerate().map(method).collect()
 }
 
-/// The larger one, where NaN is larger than all: what a method fails to compute counts.
+/// The larger error. NaN counts as an infinite error.
 pub fn worse(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.max(b) }
 }
 
-/// How far `found` is from `truth`, relative to it; infinite if it is not a number.
+/// Relative error of `found`; infinite if that is NaN.
 pub fn relative_error(found: f64, truth: f64) -> f64 {
     worse(0.0, ((found - truth) / truth).abs())
 }

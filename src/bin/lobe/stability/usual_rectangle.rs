@@ -1,11 +1,11 @@
-//! Usual ways to sample a rectangle by its solid angle, in f32.
+//! Common methods to sample a rectangle by its solid angle, in f32.
 
 use std::f32::consts::{PI, TAU};
 
 use lobe::glam::{Vec2, Vec3};
 
-/// A spherical rectangle as Ureña, Fajardo and King 2013 print it: "An Area-Preserving Parametrization for Spherical
-/// Rectangles", listings in the appendix.
+/// A spherical rectangle, after the listings in the appendix of Ureña, Fajardo and King 2013, "An Area-Preserving
+/// Parametrization for Spherical Rectangles".
 pub struct UsualRectangle {
     o: Vec3,
     axes: [Vec3; 3],
@@ -70,7 +70,7 @@ impl UsualRectangle {
     }
 }
 
-/// As in C: NaN stays NaN.
+/// `clamp` as in C: NaN stays NaN.
 fn clamp(x: f32, low: f32, high: f32) -> f32 {
     if x < low {
         low
@@ -81,8 +81,8 @@ fn clamp(x: f32, low: f32, high: f32) -> f32 {
     }
 }
 
-/// A spherical triangle with the solid angle from its angles' excess over π (Girard's theorem), and samples as Arvo
-/// 1995 has them: "Stratified Sampling of Spherical Triangles".
+/// A spherical triangle: solid angle by Girard's theorem (the excess of its angles over π), samples after Arvo 1995,
+/// "Stratified Sampling of Spherical Triangles".
 pub struct UsualTriangle {
     corners: [Vec3; 3],
     alpha: f32,
@@ -92,7 +92,7 @@ pub struct UsualTriangle {
 }
 
 impl UsualTriangle {
-    /// The triangle as it is seen from `o`.
+    /// The triangle as seen from `o`.
     pub fn new(o: Vec3, corners: [Vec3; 3]) -> Self {
         let [a, b, c] = corners.map(|corner| {
             let d = corner - o;

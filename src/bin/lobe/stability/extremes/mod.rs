@@ -1,4 +1,4 @@
-//! Random numbers at 0 and just below 1: how integers become floats, and what warps make of the extremes.
+//! Random numbers at 0 and just below 1: conversion from integers, and warps at these extremes.
 
 mod ones;
 mod warps;
@@ -8,20 +8,20 @@ pub use ones::ones;
 use lobe::geometry::float::ONE_MINUS_EPSILON;
 use lobe::glam::Vec2;
 
+use super::sweep::{Method, Sweep};
 use super::tally::measured;
-use super::{Method, Sweep};
 use warps::{Sound, our_share, usual_share};
 
-/// k from 1 to 32: at the ends each one, between them each other one.
+/// k from 1 to 32: all near the ends, every other one between.
 fn exponents() -> impl Iterator<Item = f64> {
     (1..=32).filter(|k| !(5..24).contains(k) || k % 2 == 0).map(f64::from)
 }
 
-/// Warps just below 1.
+/// Warps of numbers just below 1.
 pub fn near_one(_effort: f64) -> Sweep {
     let parameters: Vec<f64> = exponents().collect();
     let usual = |k: f64| (1.0 - 2.0_f64.powf(-k)) as f32;
-    // As the samplers cut it off.
+    // Clamped as by the samplers.
     let methods = fail(&parameters, usual, |k| usual(k).min(ONE_MINUS_EPSILON));
     Sweep {
         name: "extremes-near-one",
@@ -36,7 +36,7 @@ pub fn near_one(_effort: f64) -> Sweep {
     }
 }
 
-/// Warps just above 0.
+/// Warps of numbers just above 0.
 pub fn near_zero(_effort: f64) -> Sweep {
     let parameters: Vec<f64> = exponents().chain([33.0]).collect();
     let usual = |k: f64| if k > 32.0 { 0.0 } else { 2.0_f64.powf(-k) as f32 };
@@ -48,8 +48,8 @@ pub fn near_zero(_effort: f64) -> Sweep {
         about: about(
             "2^-k",
             "and 0 at k = 33; ours are 0 from k = 25 on, the next number that samplers give",
-        ) + " What ours has left is the hemisphere at 0, on the border of the square, where the density is zero: \
-             numbers of 32 bits would avoid it down to 2^-32.",
+        ) + " Of ours, only the hemisphere fails, at 0 on the border of the square, where the density is zero; \
+             32-bit random numbers would avoid it down to 2^-32.",
         parameter: "k, where u is 2^-k; 33 stands for u = 0",
         bounds: parameters.iter().map(|&k| if k > 24.0 { 0.125 } else { 0.0 }).collect(),
         ..of_warps(parameters, methods)
@@ -58,10 +58,10 @@ pub fn near_zero(_effort: f64) -> Sweep {
 
 fn about(u: &str, note: &str) -> String {
     format!(
-        "Eight warps, each by a usual formula and by the crate's function of the same purpose, where one coordinate \
+        "Eight warps, each by a common formula and by the crate's function of the same purpose, where one coordinate \
          is {u}, {note}, and the other one a multiple of 1/64 or the same. Failures: NaN, a weight below zero, a \
-         direction that is not of unit length by 1e-4, of zero density, or out of its cone's place by 1 % of the \
-         cone, an index beyond the end or of weight zero, a point outside of the rectangle. Usual: PBRT's triangle \
+         direction that is not of unit length by 1e-4, of zero density, or off by more than 1 % of its \
+         cone, an index beyond the end or of weight zero, a point outside of the rectangle. Common formulas: PBRT's triangle \
          by √u, its hemisphere by √(1 - x² - y²) and its cone by cos θ; Shirley and Chiu without a case for the \
          middle; a search through sums of weights in f32; floor(n u); Ureña's rectangle in f32; Box and Muller's \
          Gaussian."
@@ -83,7 +83,7 @@ fn of_warps(parameters: Vec<f64>, methods: Vec<Method>) -> Sweep {
     }
 }
 
-/// The shares of warps that fail at what `usual` and `ours` make of each parameter.
+/// Share of warps that fail, with the numbers that `usual` and `ours` give for each parameter.
 fn fail(
     parameters: &[f64],
     usual: impl Fn(f64) -> f32 + Sync,

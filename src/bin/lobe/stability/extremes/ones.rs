@@ -1,18 +1,18 @@
-//! How integers become floats.
+//! Conversion of integers to floats.
 
 use lobe::glam::{UVec2, Vec2};
 use lobe::sampling::{
     BlueNoiseSampler, IndependentSampler, SampleId, Sampler, SobolSampler, StratifiedSampler,
 };
 
+use super::super::sweep::{Method, Sweep};
 use super::super::tally::half_decades;
-use super::super::{Method, Sweep};
 
-/// Whether a 1 comes out among many numbers.
+/// Probability of a 1 among many random numbers.
 pub fn ones(effort: f64) -> Sweep {
     let parameters = half_decades(4, 9);
     let most = (3e8 * effort).clamp(1e5, 3e8);
-    // Only the largest integers can become 1.
+    // Only the largest integers can be rounded to 1.
     let ones = |integers: u64, one: f32| {
         let top = integers - (1 << 16)..integers;
         top.filter(|&bits| bits as f32 / one >= 1.0).count() as f64 / integers as f64
@@ -49,7 +49,7 @@ pub fn ones(effort: f64) -> Sweep {
     }
 }
 
-/// How many numbers of the samplers come before the first 1, of `most`.
+/// Number of random numbers from the samplers before the first 1; `u64::MAX` if there is none among `most`.
 fn first_ones(most: u64) -> u64 {
     let samplers: [&dyn Sampler; 4] = [
         &IndependentSampler::new(1),
@@ -60,7 +60,7 @@ fn first_ones(most: u64) -> u64 {
     let (mut ids, mut points) = (Vec::new(), Vec::new());
     let mut taken = 0;
     for turn in 0.. {
-        // The independent one is the fastest, and the only one whose numbers are not spread evenly.
+        // Mostly the independent sampler, which is the fastest and the only one whose numbers are not stratified.
         let sampler = samplers[if turn % 16 < 3 { 1 + turn as usize % 16 } else { 0 }];
         let pixel = UVec2::new(turn % 1024, turn / 1024 % 1024);
         ids.clear();

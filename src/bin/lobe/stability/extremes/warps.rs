@@ -1,4 +1,4 @@
-//! Warps of both kinds, and what they must give.
+//! The common warps and the crate's, and checks of their results.
 
 use std::f32::consts::PI;
 use std::f64::consts::TAU;
@@ -12,13 +12,13 @@ use lobe::sampling::{
 
 use super::super::usual_rectangle::UsualRectangle;
 
-/// Whether a warp gives something sound for u.
+/// Whether the result of a warp is valid for u.
 pub type Sound<'a> = &'a dyn Fn(Vec2) -> bool;
 
-/// What counts the failures of eight warps.
+/// Share of failures among eight warps at an extreme value.
 pub type Share<'a> = &'a dyn Fn([Sound; 8], f32) -> f64;
 
-/// The share of usual warps that fail.
+/// The share of common warps that fail.
 pub fn usual_share(share: Share, extreme: f32) -> f64 {
     let sums: Vec<f32> = weights()
         .scan(0.0, |sum, weight| {
@@ -57,7 +57,7 @@ pub fn usual_share(share: Share, extreme: f32) -> f64 {
     )
 }
 
-/// The share of the crate's.
+/// The share of the crate's warps that fail.
 pub fn our_share(share: Share, extreme: f32) -> f64 {
     let [corner, ex, ey] = RECTANGLE;
     let rectangle = SphericalRectangle::new(Vec3::ZERO, corner, ex, ey);
@@ -86,9 +86,9 @@ pub fn our_share(share: Share, extreme: f32) -> f64 {
 const SUN: f32 = 0.004_65;
 /// Cells of a table.
 const CELLS: usize = 16;
-/// How many weights there are; the first and the last are zero.
+/// Number of weights; the first and the last are zero.
 const WEIGHTS: usize = 5002;
-/// Corner and edges, seen from zero.
+/// Corner and edges, seen from the origin.
 const RECTANGLE: [Vec3; 3] = [Vec3::new(-0.5, -0.25, 1.0), Vec3::X, Vec3::Y];
 
 fn weights() -> impl Iterator<Item = f64> {
@@ -107,7 +107,7 @@ fn has_density(w: Vec3) -> bool {
     (w.length() - 1.0).abs() < 1e-4 && w.z / PI > 0.0
 }
 
-/// Whether the direction with these x and y is where u leads within the sun's disk: 1 - cos θ grows with u.x.
+/// Whether the direction with these x and y is the one for u within the sun's disk: 1 - cos θ grows with u.x.
 fn is_in_cone(across: Vec2, u: Vec2) -> bool {
     let height = 2.0 * (0.5 * f64::from(SUN)).sin().powi(2);
     let below = f64::from(u.x) * height;

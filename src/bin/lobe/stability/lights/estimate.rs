@@ -1,4 +1,4 @@
-//! The estimates of each method, and their errors.
+//! Estimates of the irradiance by each method, and their errors.
 
 use lobe::glam::{Vec2, Vec3};
 use lobe::light::{AreaLight, Light};
@@ -8,12 +8,12 @@ use super::super::rng::Rng;
 use super::super::tally::worse;
 use super::super::usual_rectangle::{UsualRectangle, UsualTriangle};
 use super::irradiance::irradiance;
-use super::{CORNER, Setting};
+use super::setting::{CORNER, Setting};
 
-/// Samples of an estimate.
+/// Samples per estimate.
 pub const SAMPLES: u32 = 64;
 
-/// The error of each method.
+/// Relative root mean square error of each method over `runs` estimates.
 pub fn errors(setting: &Setting, rng: &mut Rng, runs: u32) -> [f64; 4] {
     let Setting { edges: [ex, ey], p, n } = *setting;
     let mesh = TriangleMesh::parallelogram(CORNER, ex, ey);
@@ -48,13 +48,13 @@ pub fn errors(setting: &Setting, rng: &mut Rng, runs: u32) -> [f64; 4] {
     squares.map(|square| (square / f64::from(runs)).sqrt())
 }
 
-/// cos θ, and zero behind; NaN stays NaN.
+/// cos θ, clamped to zero; NaN stays NaN.
 fn cosine(n: Vec3, w: Vec3) -> f32 {
     let cosine = n.dot(w);
     if cosine < 0.0 { 0.0 } else { cosine }
 }
 
-/// cos θ over the density, of a point drawn by area.
+/// cos θ over the density of a point sampled uniformly over the area.
 fn by_area(setting: &Setting, u: Vec2) -> f32 {
     let Setting { edges: [ex, ey], p, n } = *setting;
     let across = ex.cross(ey);
@@ -66,7 +66,7 @@ fn by_area(setting: &Setting, u: Vec2) -> f32 {
     cosine(n, wi) * cos_light * area / distance2
 }
 
-/// The same of a direction towards one of two triangles, which are chosen by their solid angles.
+/// cos θ over the density of a direction towards one of two triangles, chosen by their solid angles.
 fn by_triangle([first, second]: &[UsualTriangle; 2], n: Vec3, u: Vec2) -> f32 {
     let all = first.area + second.area;
     let split = first.area / all;

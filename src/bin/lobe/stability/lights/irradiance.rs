@@ -1,10 +1,10 @@
-//! The true irradiance.
+//! The true irradiance, in f64.
 
 use std::f64::consts::PI;
 
 use lobe::glam::{DVec3, Vec3};
 
-use super::{CORNER, Setting};
+use super::setting::{CORNER, Setting};
 
 /// The irradiance at the point.
 pub fn irradiance(setting: &Setting) -> f64 {
@@ -31,8 +31,8 @@ fn lambert(from: DVec3, ex: DVec3, ey: DVec3, n: DVec3) -> f64 {
     (0..4).map(edge).sum::<f64>().abs() / 2.0
 }
 
-/// ∫ cos θ cos θ' / d² over the lamp, by Gauss and Legendre's rule of 8 × 8 points: for lamps ten sizes away the
-/// error is below 1e-15.
+/// ∫ cos θ cos θ' / d² over the lamp, by Gauss-Legendre quadrature with 8 × 8 points. From ten times the lamp's size
+/// on its error is below 1e-15.
 fn quadrature(from: DVec3, ex: DVec3, ey: DVec3, n: DVec3) -> f64 {
     let across = ex.cross(ey);
     let rule = gauss_legendre();
@@ -46,7 +46,7 @@ fn quadrature(from: DVec3, ex: DVec3, ey: DVec3, n: DVec3) -> f64 {
     sum
 }
 
-/// Nodes in [0, 1] and weights of 8 points: the zeros of Legendre's polynomial, by Newton's method.
+/// Nodes in [0, 1] and weights of the 8-point rule: zeros of the Legendre polynomial, by Newton's method.
 fn gauss_legendre() -> [(f64, f64); 8] {
     let mut rule = [(0.0, 0.0); 8];
     for (i, node) in rule.iter_mut().enumerate() {

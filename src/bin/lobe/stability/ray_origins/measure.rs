@@ -1,4 +1,4 @@
-//! Counting failures at one place.
+//! Counts failures at one placement of the scene.
 //!
 //! **Trials** ([`super::scene`]): a triangle of random shape, and the three that continue it beyond its edges,
 //! exactly in its plane. A ray hits one of the four, and another leaves the hit to a random side along `w`; half of
@@ -20,47 +20,40 @@ use lobe::glam::{DVec3, Vec3};
 
 use super::super::rng::Rng;
 use super::method::Method;
+use super::placement::Placement;
 use super::scene::Patch;
 use super::triangle_test::TESTS;
 
-/// Directions closer to the surface, as a sine, are on neither side of it: about what rounding may
-/// do to a direction and to a normal.
+/// Smallest sine between a direction and the surface. Closer to it, rounding of the direction and the normal decides on
+/// the side.
 const GRAZING: f64 = 1e-6;
 
-/// How far away a contact is, relative to the scale.
+/// Distance of a contact, relative to the scale.
 const GAP: f64 = 1e-3;
-
-/// Where trials are made.
-#[derive(Clone, Copy, PartialEq)]
-pub struct Place {
-    /// The scene's coordinates are within twice this of its centre.
-    pub scale: f64,
-    /// From the origin to the centre.
-    pub distance: f64,
-}
 
 /// What is counted.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Failure {
-    /// A ray that hits the surface that it leaves.
+    /// A ray hits the surface that it leaves.
     SelfHit,
-    /// A ray that misses what is close to it.
+    /// A ray misses a plate close to its origin.
     LostContact,
 }
 
-/// How many rays fail with each method and each of [`TESTS`], of `rays` whose truth is beyond doubt.
+/// Number of failures for each method and each of [`TESTS`], among `rays` rays whose truth is certain.
 ///
-/// Drawing ends after eight times as many: where a gap, or the triangle itself, is mostly lost in rounding, there
-/// is no count.
-pub fn measure(failure: Failure, place: Place, rays: u32) -> Option<[[u32; 2]; 4]> {
+/// `None` if eight times as many trials do not give enough such rays: where the gap, or the triangle itself, is mostly lost
+/// in rounding.
+pub fn measure(failure: Failure, placement: Placement, rays: u32) -> Option<[[u32; 2]; 4]> {
     let mut counts = [[0; 2]; 4];
     let mut trials = 0;
-    let mut rng = Rng::new(place.scale.to_bits() ^ place.distance.to_bits().rotate_left(32));
+    let mut rng =
+        Rng::new(placement.scale.to_bits() ^ placement.distance.to_bits().rotate_left(32));
     for _ in 0..8 * u64::from(rays) {
         if trials == rays {
             return Some(counts);
         }
-        trial(&mut rng, failure, place, |failed| {
+        trial(&mut rng, failure, placement, |failed| {
             trials += 1;
             for (counts, method) in counts.iter_mut().zip(Method::ALL) {
                 for (count, failed) in counts.iter_mut().zip(failed(method)) {
@@ -75,10 +68,10 @@ pub fn measure(failure: Failure, place: Place, rays: u32) -> Option<[[u32; 2]; 4
 /// Whether a method fails, with each of [`TESTS`].
 type Failed<'a> = &'a dyn Fn(Method) -> [bool; 2];
 
-/// One ray. Tells `count`, if the truth is beyond doubt, which methods fail.
-fn trial(rng: &mut Rng, failure: Failure, place: Place, mut count: impl FnMut(Failed)) {
-    let Some(patch) = Patch::draw(rng, place) else { return };
-    let Some(si) = patch.draw_hit(rng, place.scale) else { return };
+/// One ray. Calls `count` with the failures if the truth is certain.
+fn trial(rng: &mut Rng, failure: Failure, placement: Placement, mut count: impl FnMut(Failed)) {
+    let Some(patch) = Patch::draw(rng, placement) else { return };
+    let Some(si) = patch.draw_hit(rng, placement.scale) else { return };
     let n = if rng.bits() >> 63 == 0 { patch.n } else { -patch.n };
     let w = draw_leaving(rng, n);
     if w.as_dvec3().dot(n) < GRAZING {
@@ -90,7 +83,7 @@ fn trial(rng: &mut Rng, failure: Failure, place: Place, mut count: impl FnMut(Fa
             TESTS.map(|test| patch.is_hit(test, &ray))
         }),
         Failure::LostContact => {
-            let Some(plate) = patch.plate(n, GAP * place.scale) else { return };
+            let Some(plate) = patch.plate(n, GAP * placement.scale) else { return };
             let o = patch.exact(si.p());
             if plate.is_truly_hit(o, w.as_dvec3()) && plate.is_truly_hit(o, n) {
                 count(&|method| {
@@ -102,7 +95,8 @@ fn trial(rng: &mut Rng, failure: Failure, place: Place, mut count: impl FnMut(Fa
     }
 }
 
-/// A unit direction on the side of `n`: half of them uniform, half laid towards the surface by up to 2⁻²⁰.
+/// A unit direction on the side of `n`: half of them uniform, half flattened towards the surface by a factor down to
+/// 2⁻²⁰.
 fn draw_leaving(rng: &mut Rng, n: DVec3) -> Vec3 {
     let mut w = rng.direction();
     if w.dot(n) < 0.0 {

@@ -1,10 +1,10 @@
-//! The ways to move the origin of a ray off the surface that it leaves.
+//! Methods to move the origin of a ray off the surface that it leaves.
 
 use lobe::geometry::Ray;
 use lobe::glam::Vec3;
 use lobe::interaction::SurfaceInteraction;
 
-/// How the origin is moved.
+/// A method to move the origin.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Method {
     /// By 1e-4 along the geometric normal, whatever the scene.
@@ -13,10 +13,9 @@ pub enum Method {
     /// coordinate is below 1/32. Waechter and Binder 2019, "A Fast and Robust Method for Avoiding
     /// Self-Intersection", Ray Tracing Gems, chapter 6.
     WaechterBinder,
-    /// Out of the box that holds the exact point, which is what this crate does
-    /// (PBRT 3rd edition, section 3.9.5).
+    /// Out of the error bounds of the point, as this crate does (PBRT 3rd edition, section 3.9.5).
     ErrorBounds,
-    /// Not at all: the control.
+    /// Not moved: the control.
     Unmoved,
 }
 
@@ -48,7 +47,7 @@ fn waechter_binder(p: f32, n: f32) -> f32 {
     if p.abs() < ORIGIN {
         return p + FLOAT_SCALE * n;
     }
-    // The bits of a float, taken as an integer, count floats away from zero.
+    // Adding to a float's bits moves it by that many floats away from zero.
     let floats = (INT_SCALE * n) as i32;
     let away = if p < 0.0 { -floats } else { floats };
     f32::from_bits(p.to_bits().wrapping_add_signed(away))

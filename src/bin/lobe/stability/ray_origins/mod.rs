@@ -1,16 +1,18 @@
-//! Ray origins: by how much a ray's start is moved off the surface that it leaves, and what goes wrong.
+//! Ray origins: methods to move them off the surface, and the self-hits and lost contacts that result.
 
 pub mod measure;
 pub mod method;
+pub mod placement;
 mod scene;
 mod triangle_test;
 
-use measure::{Failure, Place, measure};
+use measure::{Failure, measure};
+use placement::Placement;
 
-use super::Sweep;
+use super::sweep::Sweep;
 use super::tally::{half_decades, measured, trials};
 
-/// The crate's triangle test and the plain one: indices into the counts.
+/// Indices of the crate's triangle test and of the plain one in the counts.
 const CRATES: usize = 0;
 const PLAIN: usize = 1;
 
@@ -48,15 +50,15 @@ pub fn contacts_by_distance(effort: f64) -> Sweep {
     let mut sweep = by_distance(Failure::LostContact, effort);
     sweep.name = "ray-contacts-distance";
     sweep.title = "Lost contacts, by the scene's distance from the origin";
-    sweep.about += " From 3000 scales on ours loses most of them, and the fixed epsilon fewer: the offset outgrows \
-                    the gap before floats cease to resolve it. Where they do, there is nothing to measure.";
+    sweep.about += " From a distance of 3000 on ours loses most of them, and the fixed epsilon fewer: the offset \
+                    exceeds the gap before floats cease to resolve it. Beyond that nothing can be measured.";
     for (bound, &distance) in sweep.bounds.iter_mut().zip(&sweep.parameters) {
         *bound = if distance <= 1000.0 { CONTACTS } else { f64::INFINITY };
     }
     sweep
 }
 
-/// One contact in 100,000 is lost here and there, to the triangle test's bound on its error.
+/// Up to one contact in 100,000 is lost to the triangle test's error bound.
 const CONTACTS: f64 = 1e-4;
 
 fn rays(effort: f64) -> u32 {
@@ -64,15 +66,15 @@ fn rays(effort: f64) -> u32 {
 }
 
 fn by_scale(failure: Failure, effort: f64) -> Sweep {
-    let place = |scale| Place { scale, distance: 0.0 };
-    let mut sweep = sweep(failure, half_decades(-6, 6), effort, place);
+    let placement = |scale| Placement { scale, distance: 0.0 };
+    let mut sweep = sweep(failure, half_decades(-6, 6), effort, placement);
     sweep.parameter = "scale of the scene (scene units)";
     sweep
 }
 
 fn by_distance(failure: Failure, effort: f64) -> Sweep {
-    let place = |distance| Place { scale: 1.0, distance };
-    let mut sweep = sweep(failure, half_decades(0, 6), effort, place);
+    let placement = |distance| Placement { scale: 1.0, distance };
+    let mut sweep = sweep(failure, half_decades(0, 6), effort, placement);
     sweep.parameter = "distance from the origin (sizes of the scene)";
     sweep
 }
@@ -81,7 +83,7 @@ fn sweep(
     failure: Failure,
     parameters: Vec<f64>,
     effort: f64,
-    place: impl Fn(f64) -> Place + Sync,
+    placement: impl Fn(f64) -> Placement + Sync,
 ) -> Sweep {
     let rays = rays(effort);
     let named = [
@@ -91,7 +93,7 @@ fn sweep(
         ("error bounds, crate's test (ours)", true),
     ];
     let methods = measured(&parameters, named, |_, parameter| {
-        let Some([fixed, binder, bounds, _]) = measure(failure, place(parameter), rays) else {
+        let Some([fixed, binder, bounds, _]) = measure(failure, placement(parameter), rays) else {
             return [f64::NAN; 4];
         };
         [fixed[PLAIN], binder[PLAIN], bounds[PLAIN], bounds[CRATES]]

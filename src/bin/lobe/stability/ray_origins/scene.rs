@@ -1,4 +1,4 @@
-//! What a trial is made of: a flat patch of four triangles, a hit on it, and a plate above it.
+//! The scene of a trial: a flat patch of four triangles, a hit on it, and a plate above it.
 
 use lobe::TriangleMesh;
 use lobe::geometry::Ray;
@@ -7,18 +7,18 @@ use lobe::interaction::SurfaceInteraction;
 use lobe::shape::ShearedRay;
 
 use super::super::rng::Rng;
-use super::measure::Place;
+use super::placement::Placement;
 use super::triangle_test::TriangleTest;
 
-/// Triangles thinner than this are not drawn: the sine between their edges.
+/// Smallest sine between two edges of a triangle.
 const THINNEST: f64 = 1e-3;
-/// How far from its edges, in barycentric weights, a ray must meet the plate to count.
+/// Smallest barycentric coordinate of a hit on the plate that counts.
 const MARGIN: f64 = 0.01;
 
-/// A large triangle cut into four by the middles of its edges.
+/// A large triangle, split into four at the midpoints of its edges.
 pub struct Patch {
     mesh: TriangleMesh,
-    /// What all coordinates are multiples of: the spacing of floats at the farthest corner.
+    /// All coordinates are multiples of this, the spacing of floats at the farthest corner.
     unit: f64,
     /// The corners of the large triangle.
     large: [DVec3; 3],
@@ -29,9 +29,9 @@ pub struct Patch {
 impl Patch {
     /// A random patch; `None` if it has next to no area.
     ///
-    /// All coordinates are whole multiples of one power of two, with at most 24 bits. So they are
-    /// floats as they stand, and the four triangles lie in one plane exactly.
-    pub fn draw(rng: &mut Rng, Place { scale, distance }: Place) -> Option<Self> {
+    /// All coordinates are multiples of one power of two with at most 24 bits. So they are exact floats, and the four
+    /// triangles are exactly coplanar.
+    pub fn draw(rng: &mut Rng, Placement { scale, distance }: Placement) -> Option<Self> {
         let unit = spacing(distance + 2.0 * scale);
         let round = |v: DVec3| (v / unit).round() * unit;
         let c = round(distance * rng.direction() + 0.5 * scale * rng.in_cube());
@@ -51,7 +51,7 @@ impl Patch {
         Some(Self { mesh, unit, large, n: cross.normalize() })
     }
 
-    /// The hit of a ray that is aimed at the triangle in the middle, found as a renderer finds it.
+    /// The hit of a ray aimed at the middle triangle, computed as in a renderer.
     pub fn draw_hit(&self, rng: &mut Rng, scale: f64) -> Option<SurfaceInteraction<'_>> {
         let [b1, b2] = rng.in_triangle();
         let [p0, p1, p2] = self.mesh.corners(0).map(Vec3::as_dvec3);
@@ -66,7 +66,7 @@ impl Patch {
         Some(SurfaceInteraction::on_triangle(&self.mesh, triangle, hit.b, -d))
     }
 
-    /// Whether a test finds that a ray hits one of the four.
+    /// Whether a ray hits one of the four triangles by this test.
     pub fn is_hit(&self, test: TriangleTest, ray: &Ray) -> bool {
         self.triangles().any(|corners| test(ray, &corners))
     }
@@ -77,7 +77,7 @@ impl Patch {
 
     /// The point of the exact plane that is nearest to a computed hit point.
     ///
-    /// This is where the exact ray starts: the truth asks for a start in the plane, not for a certain one.
+    /// The exact ray starts here: the truth needs an origin in the plane, but no particular one.
     pub fn exact(&self, p: Vec3) -> DVec3 {
         let p = p.as_dvec3();
         p - (p - self.large[0]).dot(self.n) * self.n
@@ -98,18 +98,18 @@ impl Patch {
     }
 }
 
-/// A triangle that faces a patch.
+/// A triangle parallel to a patch.
 pub struct Plate {
     corners: [Vec3; 3],
 }
 
 impl Plate {
-    /// Whether a test finds that a ray hits it.
+    /// Whether a ray hits it by this test.
     pub fn is_hit(&self, test: TriangleTest, ray: &Ray) -> bool {
         test(ray, &self.corners)
     }
 
-    /// Whether the exact ray from `o` along `w` hits it, away from its edges.
+    /// Whether the exact ray from `o` along `w` hits it, not too close to its edges.
     pub fn is_truly_hit(&self, o: DVec3, w: DVec3) -> bool {
         // Cramer's rule for o + t w = p0 + b1 e1 + b2 e2.
         let [p0, p1, p2] = self.corners.map(Vec3::as_dvec3);
@@ -122,7 +122,7 @@ impl Plate {
     }
 }
 
-/// The spacing of floats as large as `extent`, all of whose multiples up to there are floats.
+/// The spacing of floats at `extent`. Its multiples up to there are exact floats.
 fn spacing(extent: f64) -> f64 {
     const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
     let below = f64::from_bits(extent.to_bits() & EXPONENT);

@@ -1,32 +1,30 @@
-//! [`Pool`]: pictures of one scene that differ by chance alone, and their mean.
+//! [`RunningMean`]: mean and variance of pictures that differ by noise alone.
 
 use glam::DVec3;
 
-use super::super::Image;
+use crate::image::Image;
 use crate::spectrum::Spectrum;
 
-/// The mean of independent pictures, and how they scatter around it.
-///
-/// Welford 1962, "Note on a method for calculating corrected sums of squares and products", for each band of
-/// each pixel.
+/// Mean and variance of independent pictures, for each band of each pixel (Welford 1962, "Note on a method for calculating
+/// corrected sums of squares and products").
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Pool {
+pub struct RunningMean {
     count: u32,
     mean: Vec<DVec3>,
-    /// Sums of squared distances from the mean.
+    /// Sums of squared differences from the mean.
     squares: Vec<DVec3>,
 }
 
-impl Pool {
-    /// How many pictures there are.
+impl RunningMean {
+    /// Number of pictures.
     pub fn count(&self) -> u32 {
         self.count
     }
 
-    /// Adds a picture's pixels. All have to be of one size.
+    /// Adds a picture. All have to be of one size.
     ///
     /// # Panics
-    /// If there is another number of them than of those before.
+    /// If the number of pixels differs from that of the pictures before.
     pub fn add(&mut self, pixels: &[Spectrum]) {
         if self.count == 0 {
             self.mean = vec![DVec3::ZERO; pixels.len()];
@@ -43,7 +41,7 @@ impl Pool {
         }
     }
 
-    /// The mean, and the variance of the mean once there are two pictures.
+    /// The mean, and the variance of the mean from two pictures on.
     pub fn pixels(&self) -> (Vec<Spectrum>, Option<Vec<Spectrum>>) {
         let narrow = |v: &DVec3| Spectrum::from(v.as_vec3().to_array());
         let mean = self.mean.iter().map(narrow).collect();
@@ -52,8 +50,8 @@ impl Pool {
         (mean, (self.count > 1).then(|| self.squares.iter().map(variance).collect()))
     }
 
-    /// The pool of `count` pictures whose mean and variance of the mean an image has, up to f32: what [`Pool::pixels`] gave.
-    /// An image without variance is one picture.
+    /// Restores the mean of `count` pictures from the result of [`pixels`](Self::pixels), stored in an image. It was
+    /// rounded to f32. An image without variance counts as one picture.
     pub fn from_image(image: &Image, count: u32) -> Self {
         let wide = |pixel: &Spectrum| DVec3::from(pixel.to_array().map(f64::from));
         let mean: Vec<DVec3> = image.pixels.iter().map(wide).collect();
@@ -67,7 +65,7 @@ impl Pool {
         }
     }
 
-    /// Mean and variance of the mean, by pixel; none of the latter for fewer than two pictures.
+    /// Mean and variance of the mean of each pixel. The variance is NaN for fewer than two pictures.
     pub(super) fn moments(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
         let of_mean = f64::from(self.count) * (f64::from(self.count) - 1.0);
         self.mean.iter().zip(&self.squares).map(move |(&mean, &squares)| (mean, squares / of_mean))

@@ -1,27 +1,29 @@
-//! [`Display`]: from linear radiance to the 8-bit codes of a screen.
+//! [`Display`]: transfer curves between linear radiance and the 8-bit codes of a screen.
 
 use std::sync::LazyLock;
 
 use crate::spectrum::Spectrum;
 
-/// The curve that takes linear values to a screen's codes, 0 to 255.
+/// A transfer curve: it encodes linear values as the codes of a screen, 0 to 255.
 ///
-/// A value below zero, and NaN, is shown as 0; a value that the curve takes above one, as 255. In
-/// between the curve's value times 255 is rounded to the nearest code, a half upwards. Codes are
-/// exact: every `f32` gets the code that the formula gives in `f64`. The curves are monotone.
+/// The curve's value times 255 is rounded to the nearest code, halves upwards. Negative values and NaN become 0, values
+/// that the curve takes above one become 255. Codes are exact: every `f32` gets the code that the formula gives in
+/// `f64`. The curves are monotone.
 ///
 /// ```
-/// use lobe::film::Display;
+/// use lobe::image::Display;
 /// assert_eq!(Display::Srgb.code(0.5), 188);
 /// assert_eq!(Display::Exposure.code(0.5), 220);
 /// assert_eq!(Display::Srgb.code(f32::NAN), 0);
+/// let linear = Display::Srgb.decode(188.0 / 255.0);
+/// assert!((linear - 0.5029).abs() < 1e-4);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Display {
-    /// The curve of sRGB, exact and in two pieces (IEC 61966-2-1): 1 is white.
+    /// The sRGB curve with both of its pieces (IEC 61966-2-1). White is 1.
     #[default]
     Srgb,
-    /// An exposure, 1 - exp(-4 L), without any gamma: white is never reached, code 255 from 1.56 on.
+    /// A photographic exposure, 1 - exp(-4 L), without gamma. It approaches white; values from 1.56 on get code 255.
     Exposure,
 }
 
@@ -31,13 +33,23 @@ impl Display {
         self.steps().code(linear)
     }
 
-    /// The codes of every band of every pixel: red, green, blue, red, ...
+    /// The codes of all bands of all pixels: red, green, blue, red, ...
     pub fn codes(self, pixels: &[Spectrum]) -> Vec<u8> {
         let steps = self.steps();
         pixels.iter().flat_map(|pixel| pixel.to_array().map(|band| steps.code(band))).collect()
     }
 
-    /// What the curve does, for the notes in a file.
+    /// The linear value that the curve encodes as `encoded`, a code over 255: the inverse of the curve, for `encoded` in
+    /// `[0, 1]`. [`Exposure`](Self::Exposure) reaches 1 at infinity only.
+    pub fn decode(self, encoded: f64) -> f64 {
+        match self {
+            Self::Srgb if encoded <= 0.04045 => encoded / 12.92,
+            Self::Srgb => ((encoded + 0.055) / 1.055).powf(2.4),
+            Self::Exposure => (-encoded).ln_1p() / -4.0,
+        }
+    }
+
+    /// The curve in words, for the text chunks of PNG files.
     pub(super) fn description(self) -> &'static str {
         match self {
             Self::Srgb => "display curve: sRGB (IEC 61966-2-1) of linear Rec. 709 radiance",
@@ -46,8 +58,8 @@ impl Display {
     }
 
     fn steps(self) -> &'static Steps {
-        static SRGB: LazyLock<Steps> = LazyLock::new(|| Steps::new(srgb_inverse));
-        static EXPOSURE: LazyLock<Steps> = LazyLock::new(|| Steps::new(exposure_inverse));
+        static SRGB: LazyLock<Steps> = LazyLock::new(|| Steps::new(Display::Srgb));
+        static EXPOSURE: LazyLock<Steps> = LazyLock::new(|| Steps::new(Display::Exposure));
         match self {
             Self::Srgb => &SRGB,
             Self::Exposure => &EXPOSURE,
@@ -55,31 +67,20 @@ impl Display {
     }
 }
 
-/// The linear value that sRGB shows as `y`.
-fn srgb_inverse(y: f64) -> f64 {
-    if y <= 0.04045 { y / 12.92 } else { ((y + 0.055) / 1.055).powf(2.4) }
-}
-
-/// The linear value that the exposure shows as `y`.
-fn exposure_inverse(y: f64) -> f64 {
-    (-y).ln_1p() / -4.0
-}
-
-/// A monotone curve as the 255 places where its code steps up by one.
+/// A curve as a table of the 255 values where its code increases by one.
 struct Steps {
-    /// `next[c]` is the smallest value with a code above `c`; NaN for 255, above which there is none.
+    /// `next[c]` is the smallest value with a code above `c`; NaN for 255, the largest code.
     next: [f32; 256],
-    /// The code of the smallest float that has these upper 16 bits, for all from +0 to infinity.
-    /// Floats that share them are less than one part in 128 apart, so close that at most one step
-    /// of either curve lies between them.
+    /// For all upper 16 bits from +0 to infinity: the code of the smallest float with these bits. Floats with the same
+    /// upper bits differ by less than one part in 128, so at most one step of either curve lies between them.
     codes: Vec<u8>,
 }
 
 impl Steps {
-    fn new(inverse: fn(f64) -> f64) -> Self {
+    fn new(display: Display) -> Self {
         let mut next = [f32::NAN; 256];
         for (code, next) in next.iter_mut().take(255).enumerate() {
-            *next = round_up(inverse((code as f64 + 0.5) / 255.0));
+            *next = round_up(display.decode((code as f64 + 0.5) / 255.0));
         }
         let code_of = |value: f32| next[..255].partition_point(|&step| step <= value) as u8;
         let last = f32::INFINITY.to_bits() >> 16;
@@ -88,7 +89,7 @@ impl Steps {
 
     #[inline]
     fn code(&self, linear: f32) -> u8 {
-        // False for NaN and for both zeros, too.
+        // NaN and both zeros take the other branch.
         if linear > 0.0 {
             let code = self.codes[(linear.to_bits() >> 16) as usize];
             code + u8::from(linear >= self.next[usize::from(code)])
@@ -98,7 +99,7 @@ impl Steps {
     }
 }
 
-/// The smallest `f32` that is not below `value`.
+/// `value` rounded up to `f32`.
 fn round_up(value: f64) -> f32 {
     let near = value as f32;
     if f64::from(near) < value { near.next_up() } else { near }
@@ -108,8 +109,8 @@ fn round_up(value: f64) -> f32 {
 mod tests {
     use super::*;
 
-    /// The table is right everywhere if no two steps share their upper 16 bits: with that, the
-    /// test of every step against f64 (tests/output.rs) proves every float.
+    /// If no two steps share their upper 16 bits, the table is right everywhere that it is right at the steps, which
+    /// tests/output.rs compares with f64.
     #[test]
     fn no_two_steps_share_a_bucket() {
         for display in [Display::Srgb, Display::Exposure] {

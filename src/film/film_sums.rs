@@ -1,0 +1,211 @@
+//! [`Film`]: sums of the samples of each pixel.
+
+use glam::{UVec2, Vec3};
+
+use super::Variance;
+use super::first_hits::FirstHits;
+use super::pixel_sum::{PixelSum, zeroed};
+use super::variance::VarianceSums;
+use crate::image::{Picture, Window};
+use crate::spectrum::Spectrum;
+
+/// Why a film cannot be created.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FilmError {
+    /// The film, its picture and the files made from them do not fit into memory.
+    #[error(
+        "an image of {0} x {1} pixels needs about {2} MiB of memory, which is not available: \
+         lower the film's resolution or set a crop"
+    )]
+    TooLarge(u32, u32, u64),
+}
+
+/// What a film keeps besides the radiance. None of it changes the radiance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FilmContents {
+    /// How the variance of each pixel is estimated.
+    pub variance: Variance,
+    /// Whether first hits are recorded, which become the picture's [`Layers`](crate::image::Layers).
+    pub first_hits: bool,
+}
+
+/// Sums of the samples of each pixel, in f64, so that a million samples lose no digits. All samples of a pixel have the
+/// same weight: the filter is in their distribution. A pixel takes fewer than 2³² samples.
+///
+/// A sample with a value that is not finite is left out of its pixel and counted in [`non_finite`](Film::non_finite).
+///
+/// ```
+/// use lobe::Spectrum;
+/// use lobe::film::{Film, FilmContents, Variance};
+/// use lobe::glam::UVec2;
+/// use lobe::image::Window;
+///
+/// let size = UVec2::new(2, 1);
+/// let contents = FilmContents { variance: Variance::OfSamples, first_hits: false };
+/// let mut film = Film::new(size, Window::full(size), contents)?;
+/// // Four independent samples of the left pixel, one of the right one.
+/// for value in [1.0, 3.0, 1.0, 3.0] {
+///     film.add_sample(UVec2::new(0, 0), 0, Spectrum::splat(value));
+/// }
+/// film.add_sample(UVec2::new(1, 0), 0, Spectrum::WHITE);
+///
+/// let picture = film.develop();
+/// assert_eq!(picture.color, [Spectrum::splat(2.0), Spectrum::WHITE]);
+/// // The variance of the mean is that of the samples, 4/3, over their number. One sample has no estimate.
+/// let variance = picture.variance.unwrap();
+/// assert_eq!(variance[0], Spectrum::splat(1.0 / 3.0));
+/// assert_eq!(variance[1], Spectrum::splat(f32::INFINITY));
+/// # Ok::<(), lobe::film::FilmError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Film {
+    resolution: UVec2,
+    window: Window,
+    contents: FilmContents,
+    pixels: Vec<PixelSum>,
+    variance: VarianceSums,
+    first_hits: Option<Vec<FirstHits>>,
+    non_finite: u64,
+}
+
+impl Film {
+    /// An empty film for the pixels of `window` in an image of `resolution`.
+    ///
+    /// # Errors
+    /// [`FilmError::TooLarge`] if the film, its picture and the files made from them would not fit into memory.
+    pub fn new(
+        resolution: UVec2,
+        window: Window,
+        contents: FilmContents,
+    ) -> Result<Self, FilmError> {
+        let area = window.area();
+        let first_hits = if contents.first_hits { size_of::<FirstHits>() } else { 0 };
+        // Radiance and first hits three times: as sums, in the picture, and in the file that is written. The variance once
+        // as sums, and twice as a spectrum.
+        let variance = contents.variance.bytes();
+        let developed = if variance > 0 { 2 * size_of::<Spectrum>() as u64 } else { 0 };
+        let per_pixel = 3 * (size_of::<PixelSum>() + first_hits) as u64 + variance + developed;
+        let bytes = (area as u64).saturating_mul(per_pixel);
+        let too_large = FilmError::TooLarge(window.size().x, window.size().y, bytes >> 20);
+        let fits =
+            usize::try_from(bytes).is_ok_and(|b| Vec::<u8>::new().try_reserve_exact(b).is_ok());
+        if !fits {
+            return Err(too_large);
+        }
+        let pixels = zeroed(area).ok_or(too_large)?;
+        let variance = VarianceSums::new(contents.variance, area).ok_or(too_large)?;
+        let first_hits =
+            if contents.first_hits { Some(zeroed(area).ok_or(too_large)?) } else { None };
+        Ok(Self { resolution, window, contents, pixels, variance, first_hits, non_finite: 0 })
+    }
+
+    /// Removes all samples and moves the film to another window, not larger than the first one.
+    pub fn reset(&mut self, window: Window) {
+        self.window = window;
+        self.non_finite = 0;
+        self.pixels.clear();
+        self.pixels.resize(window.area(), PixelSum::default());
+        self.variance.reset(window.area());
+        if let Some(first_hits) = &mut self.first_hits {
+            first_hits.clear();
+            first_hits.resize(window.area(), FirstHits::default());
+        }
+    }
+
+    /// Whether first hits are recorded.
+    pub fn has_layers(&self) -> bool {
+        self.first_hits.is_some()
+    }
+
+    /// Number of samples and first hits that were left out because they were not finite.
+    pub fn non_finite(&self) -> u64 {
+        self.non_finite
+    }
+
+    /// Adds a sample of the radiance at `pixel`, which must lie in the window. `set` is the independent set that the
+    /// sample belongs to: used by [`Variance::OfSets`] only, and less than its number of sets.
+    #[inline]
+    pub fn add_sample(&mut self, pixel: UVec2, set: u32, radiance: Spectrum) {
+        self.add_samples(pixel, set, &[radiance]);
+    }
+
+    /// Adds samples of one pixel and set, in this order.
+    #[inline]
+    pub fn add_samples(&mut self, pixel: UVec2, set: u32, radiance: &[Spectrum]) {
+        let index = self.index(pixel);
+        // A copy stays in registers.
+        let mut sum = self.pixels[index];
+        for radiance in radiance {
+            if radiance.is_finite() {
+                sum.add(radiance.to_array());
+                self.variance.add(index, set, radiance.to_array(), &sum);
+            } else {
+                self.non_finite += 1;
+            }
+        }
+        self.pixels[index] = sum;
+    }
+
+    /// Adds the first hit of a sample of `pixel`: the shading normal, the distance and the albedo. If any of it is not
+    /// finite it is counted instead. Does nothing if the film records no first hits.
+    #[inline]
+    pub fn add_first_hit(&mut self, pixel: UVec2, normal: Vec3, depth: f32, albedo: Spectrum) {
+        let index = self.index(pixel);
+        let Some(first_hits) = &mut self.first_hits else { return };
+        if !(normal.is_finite() && depth.is_finite() && albedo.is_finite()) {
+            self.non_finite += 1;
+            return;
+        }
+        first_hits[index].add(normal, depth, albedo);
+    }
+
+    /// Adds the samples of a film whose window is part of this one's. The result is that of adding them here one by one,
+    /// up to rounding; merging into an empty film gives the same bits.
+    ///
+    /// # Panics
+    /// If the contents of the films differ, or the tile's window reaches beyond this one's.
+    pub fn merge(&mut self, tile: &Film) {
+        assert_eq!(self.contents, tile.contents, "a tile keeps what its film keeps");
+        self.non_finite += tile.non_finite;
+        let width = tile.window.size().x as usize;
+        for (row, y) in (tile.window.min.y..tile.window.max.y).enumerate() {
+            let start = self.index(UVec2::new(tile.window.min.x, y));
+            for (to, from) in (start..start + width).zip(row * width..) {
+                let other = &tile.pixels[from];
+                self.variance.merge(to, &self.pixels[to], &tile.variance, from, other);
+                self.pixels[to].merge(other);
+                if let (Some(first_hits), Some(of_tile)) = (&mut self.first_hits, &tile.first_hits)
+                {
+                    first_hits[to].merge(&of_tile[from]);
+                }
+            }
+        }
+    }
+
+    /// The picture: the mean of each pixel, its estimated variance, and the layers.
+    pub fn develop(&self) -> Picture {
+        let samples = || self.pixels.iter().map(|sum| sum.samples);
+        let layers = self.first_hits.as_ref().map(|pixels| FirstHits::develop(pixels, samples()));
+        let color = self.pixels.iter().map(|p| p.mean().map(|m| m as f32).into()).collect();
+        let variance = self.develop_variance();
+        Picture { resolution: self.resolution, window: self.window, color, variance, layers }
+    }
+
+    /// The variance of each pixel's mean, infinite where there is no estimate; `None` if no pixel has one.
+    fn develop_variance(&self) -> Option<Vec<Spectrum>> {
+        let of = |(index, sum)| self.variance.of_mean(index, sum);
+        let known = self.pixels.iter().enumerate().any(|pixel| of(pixel).is_some());
+        known.then(|| {
+            let variances = self.pixels.iter().enumerate().map(|pixel| {
+                of(pixel).map_or([f32::INFINITY; 3], |v| v.map(|band| band as f32)).into()
+            });
+            variances.collect()
+        })
+    }
+
+    #[inline]
+    fn index(&self, pixel: UVec2) -> usize {
+        let within = pixel - self.window.min;
+        within.y as usize * self.window.size().x as usize + within.x as usize
+    }
+}

@@ -1,0 +1,105 @@
+//! Why a picture could not be read or written.
+
+use std::io;
+use std::path::PathBuf;
+
+/// Why a file could not be read as an image. The message names the path, the reason and what would be accepted.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The operating system refused.
+    #[error("cannot read `{}`: {error}", .path.display())]
+    System {
+        /// The path as it was given.
+        path: PathBuf,
+        /// The operating system's error.
+        error: io::Error,
+    },
+    /// The file name does not end in a known format.
+    #[error("cannot read `{}`: its name has to end in .exr, .pfm or .png", .path.display())]
+    Format {
+        /// The path as it was given.
+        path: PathBuf,
+    },
+    /// The contents are not of the format that the name says, or have no colours.
+    #[error("cannot read `{}`: {reason}", .path.display())]
+    Contents {
+        /// The path as it was given.
+        path: PathBuf,
+        /// What is wrong with the contents.
+        reason: String,
+    },
+}
+
+/// Why a picture cannot be encoded: its parts contradict each other, or it is too large for the format.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct EncodeError(pub(super) String);
+
+/// Why a file could not be written. The message names the path, the reason and what to do.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// The path does not end in a file name, as `..` does not.
+    #[error("cannot write `{}`: it names no file; give a file name such as picture.png", .path.display())]
+    NoFileName {
+        /// The path as it was given.
+        path: PathBuf,
+    },
+    /// The path names a folder.
+    #[error("cannot write `{}`: it is a folder; give the name of a file in it", .path.display())]
+    Folder {
+        /// The path as it was given.
+        path: PathBuf,
+    },
+    /// The path names a device, a pipe or a socket, which a finished file cannot replace.
+    #[error("cannot write `{}`: it is not an ordinary file; give the name of a new file", .path.display())]
+    NotAFile {
+        /// The path as it was given.
+        path: PathBuf,
+    },
+    /// The file exists and is read-only.
+    #[error("cannot write `{}`: the file is write-protected; allow writing or give another name", .path.display())]
+    WriteProtected {
+        /// The path as it was given.
+        path: PathBuf,
+    },
+    /// The folder for the file does not exist.
+    #[error("cannot write `{}`: there is no folder `{}`; create it first", .path.display(), .folder.display())]
+    MissingFolder {
+        /// The path as it was given.
+        path: PathBuf,
+        /// The folder that is missing.
+        folder: PathBuf,
+    },
+    /// The operating system refused: no permission, no space, ...
+    #[error("cannot write `{}`: {error}; {}", .path.display(), advice(.error))]
+    System {
+        /// The path as it was given.
+        path: PathBuf,
+        /// The operating system's error.
+        error: io::Error,
+    },
+    /// The picture cannot be encoded.
+    #[error("cannot write `{}`: {error}; mend the picture", .path.display())]
+    Picture {
+        /// The path as it was given.
+        path: PathBuf,
+        /// What is wrong with the picture.
+        error: EncodeError,
+    },
+}
+
+/// What to do about an error of the operating system.
+fn advice(error: &io::Error) -> &'static str {
+    match error.kind() {
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "choose a folder that you may write to"
+        }
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
+            "free some space or choose another disk"
+        }
+        io::ErrorKind::InvalidFilename => "choose a shorter name",
+        _ => "try another path",
+    }
+}

@@ -1,0 +1,149 @@
+//! Reading of pictures, and the inverse of the display curves. Files that the crate writes come back bit for bit.
+//! What it writes is compared with other programs in tests/output.rs.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use lobe::Spectrum;
+use lobe::glam::UVec2;
+use lobe::image::{
+    Display, Encoding, Image, Metadata, Picture, Window, write_exr, write_pfm, write_png,
+};
+
+fn path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("image-{name}"))
+}
+
+/// A crop with both zeros, subnormals, extremes, and values of every size between.
+fn picture() -> Picture {
+    let value = |i: u32| match i % 9 {
+        0 => -0.0,
+        1 => 1e-45,
+        2 => f32::MAX,
+        3 => f32::INFINITY,
+        _ => (i as f32 - 40.0) * 10_f32.powi((i % 11) as i32 - 5),
+    };
+    let window = Window { min: UVec2::new(3, 2), max: UVec2::new(8, 9) };
+    let pixels =
+        |salt| (0..35).map(move |i| [0, 1, 2].map(|c: u32| value(3 * i + c + salt)).into());
+    Picture {
+        resolution: UVec2::new(20, 50),
+        window,
+        color: pixels(0).collect(),
+        variance: Some(pixels(5).collect()),
+        layers: None,
+    }
+}
+
+fn bits(pixels: &[Spectrum]) -> Vec<u32> {
+    pixels.iter().flat_map(|pixel| pixel.to_array()).map(f32::to_bits).collect()
+}
+
+/// Caught: PFM rows from the top down; big-endian numbers; bands exchanged; a band of the variance read twice; a PFM
+/// picture that is not checked.
+#[test]
+fn linear_formats_come_back_bit_for_bit() {
+    let picture = picture();
+    let (exr, pfm) = (path("x.exr"), path("x.PFM"));
+    write_exr(&exr, &picture, &Metadata::default()).unwrap();
+    write_pfm(&pfm, &picture).unwrap();
+    for (path, variance) in [(&exr, picture.variance.as_ref()), (&pfm, None)] {
+        let image = Image::read(path).unwrap();
+        assert_eq!((image.size, image.encoding), (UVec2::new(5, 7), Encoding::Linear));
+        assert_eq!(bits(&image.pixels), bits(&picture.color), "{path:?}");
+        let found = image.variance.as_deref().map(bits);
+        assert_eq!(found, variance.map(|variance| bits(variance)), "{path:?}");
+    }
+    let refused = Picture { color: Vec::new(), ..picture };
+    let message = write_pfm(&pfm, &refused).unwrap_err().to_string();
+    assert!(message.contains("its window has 35 pixels, but 0 values of colour"), "{message}");
+}
+
+/// Caught: the largest code taken for 256; columns and rows exchanged.
+#[test]
+fn png_comes_back_as_its_codes() {
+    let png = path("x.png");
+    let picture = picture();
+    write_png(&png, &picture, Display::Exposure, &Metadata::default()).unwrap();
+    let image = Image::read(&png).unwrap();
+    assert_eq!((image.size, image.encoding), (UVec2::new(5, 7), Encoding::Srgb));
+    let codes: Vec<u8> = image
+        .pixels
+        .iter()
+        .flat_map(|pixel| pixel.to_array())
+        .map(|band| (255.0 * band).round() as u8)
+        .collect();
+    assert_eq!(codes, Display::Exposure.codes(&picture.color));
+    assert_eq!(image.pixels[0].to_array()[2], 1.0);
+}
+
+/// The inverse gives each of the 256 codes back, and agrees with the curve as IEC 61966-2-1 prints it.
+/// Caught: 0.05 for 0.04045; 2.2 for 2.4; 12.9 for 12.92; a factor 4.01 in the exposure.
+#[test]
+fn decoding_is_exact_at_all_codes() {
+    let srgb = |linear: f64| match linear <= 0.0031308 {
+        true => 12.92 * linear,
+        false => 1.055 * linear.powf(1.0 / 2.4) - 0.055,
+    };
+    let exposure = |linear: f64| 1.0 - (-4.0 * linear).exp();
+    for code in 0..=255 {
+        let encoded = f64::from(code) / 255.0;
+        for display in [Display::Srgb, Display::Exposure] {
+            let linear = display.decode(encoded);
+            assert_eq!(display.code(linear as f32), code, "{display:?}");
+            let again = if display == Display::Srgb { srgb(linear) } else { exposure(linear) };
+            assert!((again - encoded).abs() < 1e-15 + 1e-15 * encoded, "{display:?} {code}");
+        }
+    }
+}
+
+/// Other programs write one band, and big-endian numbers. Caught: the byte order exchanged.
+#[test]
+fn pfm_of_other_programs() {
+    let file = path("gray.pfm");
+    let numbers = [1.0_f32, 2.0, 3.0, 4.0].into_iter().flat_map(f32::to_be_bytes);
+    fs::write(&file, b"Pf\n2 2\n1.0\n".iter().copied().chain(numbers).collect::<Vec<_>>()).unwrap();
+    let image = Image::read(&file).unwrap();
+    assert_eq!(image.pixels, [3.0, 4.0, 1.0, 2.0].map(Spectrum::splat));
+}
+
+/// Caught: a product of the sides that leaves 64 bits; a side of 0; any magic word; colours not looked for.
+#[test]
+fn what_is_no_image_is_refused() {
+    let cases: [(&str, &[u8], &str); 9] = [
+        ("bad.pfm", b"P6\n2 2\n255\n", "it is no PFM file: it begins with `P6`, not PF or Pf"),
+        ("bad.pfm", b"PF\n2 ", "it ends within its header"),
+        (
+            "bad.pfm",
+            b"PF\n0 2\n-1\n",
+            "its size is `0 2`, expected columns and rows, both at least 1",
+        ),
+        ("bad.pfm", b"PF\n2 2\nlow\n", "its scale is `low`, expected a number"),
+        ("bad.pfm", b"PF\n2 1\n-1\nshort", "2 x 1 pixels need 24 bytes, not 5"),
+        (
+            "bad.pfm",
+            b"PF\n4294967295 4294967295\n-1\n",
+            "4294967295 x 4294967295 pixels need 221360928781435404300 bytes, not 0",
+        ),
+        ("bad.png", b"PF\n", "it is no PNG file: "),
+        ("bad.exr", b"PF\n", "it is no EXR file that can be read: "),
+        ("bad.jpg", b"", "its name has to end in .exr, .pfm or .png"),
+    ];
+    for (name, contents, reason) in cases {
+        let file = path(name);
+        fs::write(&file, contents).unwrap();
+        let message = Image::read(&file).unwrap_err().to_string();
+        assert!(
+            message.starts_with(&format!("cannot read `{}`: {reason}", file.display())),
+            "{message}"
+        );
+    }
+    // Channels of a name that is no colour.
+    use exr::prelude::{Image as Exr, SpecificChannels, WritableImage};
+    let file = path("depth.exr");
+    let channels = SpecificChannels::build().with_channel("Z").with_pixel_fn(|_| (1.0_f32,));
+    Exr::from_channels((2, 2), channels).write().non_parallel().to_file(&file).unwrap();
+    let expected =
+        format!("cannot read `{}`: it has no channels R, G and B, nor Y", file.display());
+    assert_eq!(Image::read(&file).unwrap_err().to_string(), expected);
+}
