@@ -95,7 +95,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             ..CameraSettings::default()
         })
         .integrator(IntegratorSettings::direct())
-        .sampler(SamplerSettings { kind: SamplerKind::Stratified, spp: 16, ..Default::default() })
+        .sampler(SamplerSettings { kind: SamplerKind::STRATIFIED, spp: 16, ..Default::default() })
         .material("lacquer", Lacquer { base: Spectrum::new(0.05, 0.3, 0.2), gloss })
         .shape("dragon", dragon, "lacquer")
         .light(PointLight::new(Vec3::new(-4.0, 8.0, -10.0), Spectrum::splat(150.0 * PI)))

@@ -62,7 +62,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             ..CameraSettings::default()
         })
         .integrator(IntegratorSettings::direct())
-        .sampler(SamplerSettings { kind: SamplerKind::Stratified, spp: 16, ..Default::default() })
+        .sampler(SamplerSettings { kind: SamplerKind::STRATIFIED, spp: 16, ..Default::default() })
         .material("jade", MatteMaterial::new([0.1, 0.5, 0.25]).with_sigma(20.0))
         .material("pond", MatteMaterial::new(checkers).with_bump(ripples))
         .shape("dragon", dragon, "jade")

@@ -5,6 +5,7 @@ use glam::{DVec3, UVec2, Vec2, Vec3, Vec4};
 use crate::geometry::Ray;
 use crate::geometry::float::LARGEST_COORDINATE;
 use crate::geometry::four::{Vec3x4, four, rays_x4};
+use crate::params::{AnyKey, Fault, Key, Kind, Table};
 use crate::sampling::concentric_disk;
 
 /// Why a camera cannot be built.
@@ -50,16 +51,22 @@ pub struct CameraSettings {
     pub focal_distance: f32,
 }
 
+impl CameraSettings {
+    /// From the origin along +z, 90 degrees wide, as a pinhole.
+    pub const DEFAULT: Self = Self {
+        eye: Vec3::ZERO,
+        look_at: Vec3::Z,
+        up: Vec3::Y,
+        fov: 90.0,
+        lens_radius: 0.0,
+        focal_distance: 1.0,
+    };
+}
+
 impl Default for CameraSettings {
+    /// [`CameraSettings::DEFAULT`].
     fn default() -> Self {
-        Self {
-            eye: Vec3::ZERO,
-            look_at: Vec3::Z,
-            up: Vec3::Y,
-            fov: 90.0,
-            lens_radius: 0.0,
-            focal_distance: 1.0,
-        }
+        Self::DEFAULT
     }
 }
 
@@ -196,4 +203,58 @@ fn check(settings: &CameraSettings, resolution: UVec2) -> Result<(), CameraError
         return Err(CameraError::Resolution(resolution.x, resolution.y));
     }
     Ok(())
+}
+
+/// How a kind of camera is read, for images of this resolution.
+pub type ReadCamera = fn(&Table, UVec2) -> Result<CameraSettings, Fault>;
+
+/// All kinds of cameras; the first one is the default.
+pub static CAMERAS: &[Kind<ReadCamera>] = &[KIND];
+
+const DEFAULT: CameraSettings = CameraSettings::DEFAULT;
+const EYE: Key<Vec3> = Key::new("eye", "where it stands").default(DEFAULT.eye);
+const LOOK_AT: Key<Vec3> =
+    Key::new("look_at", "a point in the middle of the image").default(DEFAULT.look_at);
+const UP: Key<Vec3> = Key::new("up", "a direction that is up in the image").default(DEFAULT.up);
+const FOV: Key<f32> = Key::new("fov", "field of view across the shorter side of the image")
+    .in_unit("degrees")
+    .above(0.0)
+    .below(180.0)
+    .default(DEFAULT.fov);
+const LENS_RADIUS: Key<f32> =
+    Key::new("lens_radius", "radius of the lens, in scene units; 0 for a pinhole")
+        .at_least(0.0)
+        .default(DEFAULT.lens_radius);
+const FOCAL_DISTANCE: Key<f32> =
+    Key::new("focal_distance", "distance of the plane in focus, in scene units")
+        .above(0.0)
+        .default(DEFAULT.focal_distance);
+
+const KEYS: &[&dyn AnyKey] = &[&EYE, &LOOK_AT, &UP, &FOV, &LENS_RADIUS, &FOCAL_DISTANCE];
+
+/// `type = "perspective"`
+const KIND: Kind<ReadCamera> = Kind {
+    name: "perspective",
+    meaning: "Perspective, with a thin lens if it has one",
+    keys: KEYS,
+    read,
+};
+
+fn read(table: &Table, resolution: UVec2) -> Result<CameraSettings, Fault> {
+    let settings = CameraSettings {
+        eye: table.get(&EYE)?,
+        look_at: table.get(&LOOK_AT)?,
+        up: table.get(&UP)?,
+        fov: table.get(&FOV)?,
+        lens_radius: table.get(&LENS_RADIUS)?,
+        focal_distance: table.get(&FOCAL_DISTANCE)?,
+    };
+    let Err(error) = Camera::new(&settings, resolution) else { return Ok(settings) };
+    let name = match error {
+        CameraError::OutOfRange(name) => name,
+        CameraError::NoUp => UP.name(),
+        _ => LOOK_AT.name(),
+    };
+    let key = KEYS.iter().find(|key| key.name() == name).unwrap_or(&KEYS[1]);
+    Err(Fault::new(table.mark(*key), error))
 }

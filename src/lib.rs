@@ -3,13 +3,14 @@
 //!
 //! The rooms, from the ground up; none knows those below it in this list:
 //!
-//! - [`Spectrum`], linear RGB; [`geometry`], rays, shading frames and error-bounded points; [`sampling`], warps
+//! - [`Spectrum`], linear RGB; [`params`], typed values with their places; [`geometry`], rays, shading frames and error-bounded points; [`sampling`], warps
 //!   of the unit square and the samplers that fill it;
 //! - [`bxdf`], reflection models and their sum at a hit, [`bxdf::Bsdf`];
 //! - [`shape`], triangle meshes and OBJ files; [`interaction`], what is known about a hit;
 //! - [`texture`], values over a surface; [`material`], which turns them into lobes; [`light`];
 //! - [`accel`], rays against all triangles; [`Camera`]; [`film`], sums of samples, PNG and EXR;
 //! - [`scene`], what there is to render; [`integrator`], how light is computed; [`render`](mod@render), the loop;
+//! - [`scene_file`], scenes from TOML;
 //! - [`metrics`], how far an image is from another one.
 //!
 //! Traits are the doors for other crates: [`bxdf::BxDF`], [`texture::Texture`], [`material::Material`],
@@ -29,14 +30,16 @@ pub mod interaction;
 pub mod light;
 pub mod material;
 pub mod metrics;
+pub mod params;
 pub mod render;
 pub mod sampling;
 pub mod scene;
+pub mod scene_file;
 pub mod shape;
 mod spectrum;
 pub mod texture;
 
-pub use camera::{Camera, CameraError, CameraSettings};
+pub use camera::{CAMERAS, Camera, CameraError, CameraSettings, ReadCamera};
 pub use glam;
 pub use light::PointLight;
 pub use material::MatteMaterial;

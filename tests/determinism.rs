@@ -12,8 +12,12 @@ use lobe::scene::{Emission, IntegratorSettings, SamplerKind, SamplerSettings, Sc
 use lobe::{CameraSettings, PointLight, RenderOptions, Spectrum, TriangleMesh, render};
 use scenes::{ball_over_floor, chapter_camera};
 
-const SAMPLERS: [SamplerKind; 4] =
-    [SamplerKind::Independent, SamplerKind::Stratified, SamplerKind::Sobol, SamplerKind::BlueNoise];
+const SAMPLERS: [SamplerKind; 4] = [
+    SamplerKind::INDEPENDENT,
+    SamplerKind::STRATIFIED,
+    SamplerKind::SOBOL,
+    SamplerKind::BLUE_NOISE,
+];
 
 const RESOLUTION: UVec2 = UVec2::new(53, 37);
 
@@ -125,7 +129,7 @@ fn passes_add_up_to_one() {
 fn seed_decides() {
     let with = |seed| {
         let sampler = SamplerSettings { spp: 2, seed, ..Default::default() };
-        picture(scene(SamplerKind::Independent).sampler(sampler), 2, 16).color
+        picture(scene(SamplerKind::INDEPENDENT).sampler(sampler), 2, 16).color
     };
     assert_eq!(with(1), with(1));
     assert_ne!(with(1), with(2));

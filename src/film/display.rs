@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use crate::params::Choice;
 use crate::spectrum::Spectrum;
 
 /// The curve that takes linear values to a screen's codes, 0 to 255.
@@ -23,6 +24,11 @@ pub enum Display {
     Srgb,
     /// An exposure, 1 - exp(-4 L), without any gamma: white is never reached, code 255 from 1.56 on.
     Exposure,
+}
+
+impl Choice for Display {
+    const CHOICES: &'static [(&'static str, Self)] =
+        &[("srgb", Self::Srgb), ("exposure", Self::Exposure)];
 }
 
 impl Display {

@@ -12,7 +12,7 @@ mod sums;
 
 pub use display::Display;
 pub use exr::write_exr;
-pub use filter::{Filter, FilterError};
+pub use filter::{FILTERS, Filter, FilterError, ReadFilter};
 pub use filter_sampler::FilterSampler;
 pub use output::{OutputError, check_writable, write_file};
 pub use picture::{Layers, Metadata, Picture, Window};

@@ -28,3 +28,19 @@ impl Integrator for DirectIntegrator {
         self.0.shadow_rays()
     }
 }
+
+use super::Read;
+use crate::params::{Fault, Kind, Table};
+use crate::scene::IntegratorSettings;
+
+/// `type = "direct"`
+pub(super) const KIND: Kind<Read> = Kind {
+    name: "direct",
+    meaning: "Light that is emitted, or reflected once",
+    keys: &[&LightStrategy::KEY],
+    read,
+};
+
+fn read(table: &Table) -> Result<IntegratorSettings, Fault> {
+    Ok(IntegratorSettings::Direct { strategy: table.get(&LightStrategy::KEY)? })
+}

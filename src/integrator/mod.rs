@@ -15,8 +15,15 @@ pub use direct::DirectIntegrator;
 pub use path::PathIntegrator;
 pub use wave::{Counters, ShadowRays, Wave, dimension};
 
+use crate::params::{Fault, Kind, Table};
 use crate::sampling::Sampler;
 use crate::scene::{IntegratorSettings, Scene};
+
+/// How a kind of integrator is read.
+pub type Read = fn(&Table) -> Result<IntegratorSettings, Fault>;
+
+/// All kinds of integrators; the first one is the default.
+pub static INTEGRATORS: &[Kind<Read>] = &[chapter::KIND, direct::KIND, path::KIND];
 
 /// A way to compute light. It works on many camera rays at once, a [`Wave`], so that rays can be
 /// traced in batches.
@@ -41,5 +48,14 @@ pub(crate) fn from_settings(scene: &Scene, settings: &IntegratorSettings) -> Box
         IntegratorSettings::Path { max_depth, roulette, strategy } => {
             Box::new(PathIntegrator::new(scene, max_depth, roulette, strategy))
         }
+    }
+}
+
+/// The name in scene files of the kind that settings are of.
+pub fn name(settings: &IntegratorSettings) -> &'static str {
+    match settings {
+        IntegratorSettings::Chapter { .. } => chapter::KIND.name,
+        IntegratorSettings::Direct { .. } => direct::KIND.name,
+        IntegratorSettings::Path { .. } => path::KIND.name,
     }
 }

@@ -13,9 +13,18 @@ pub(crate) use known::{KnownLight, LightSamplesX4};
 pub use point::PointLight;
 pub use sky::SkyLight;
 
+use std::sync::Arc;
+
 use glam::{Vec2, Vec3};
 
+use crate::params::{Fault, Kind, Table};
 use crate::spectrum::Spectrum;
+
+/// How a kind of light is read.
+pub type Read = fn(&Table) -> Result<Arc<dyn Light>, Fault>;
+
+/// All kinds of lights that stand alone; surfaces that emit are shapes.
+pub static LIGHTS: &[Kind<Read>] = &[point::KIND, distant::KIND, sky::KIND];
 
 /// Light that may arrive at a point, from one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]

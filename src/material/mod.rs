@@ -6,8 +6,18 @@ mod matte;
 pub use bump::bump;
 pub use matte::MatteMaterial;
 
+use std::sync::Arc;
+
 use crate::bxdf::{Arena, Bsdf, TransportMode};
 use crate::interaction::SurfaceInteraction;
+use crate::params::{Fault, Kind, Table};
+use crate::texture::Textures;
+
+/// How a kind of material is read.
+pub type Read = fn(&Table, &Textures) -> Result<Arc<dyn Material>, Fault>;
+
+/// All kinds of materials.
+pub static MATERIALS: &[Kind<Read>] = &[matte::KIND];
 
 /// What a surface is made of.
 ///

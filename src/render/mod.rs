@@ -13,10 +13,8 @@ use std::time::{Duration, Instant};
 
 use crate::film::{Film, FilmContents, FilmError, Picture, Variance};
 use crate::integrator::{self, Counters, Integrator};
-use crate::sampling::{
-    BlueNoiseSampler, IndependentSampler, Sampler, SobolSampler, StratifiedSampler,
-};
-use crate::scene::{IntegratorSettings, SamplerKind, SamplerSettings, Scene};
+use crate::sampling::{SampleSets, Sampler};
+use crate::scene::{IntegratorSettings, SamplerSettings, Scene};
 use pass::Pass;
 use passes::Passes;
 
@@ -189,13 +187,9 @@ fn with_options(settings: &SamplerSettings, options: &RenderOptions) -> SamplerS
 
 /// The sampler that the settings ask for.
 fn sampler_from_settings(scene: &Scene, settings: &SamplerSettings) -> Box<dyn Sampler> {
-    let (seed, samples_per_set) = (settings.seed, settings.spp / settings.sets());
-    match settings.kind {
-        SamplerKind::Independent => Box::new(IndependentSampler::new(seed)),
-        SamplerKind::Stratified => Box::new(StratifiedSampler::new(samples_per_set, seed)),
-        SamplerKind::Sobol => Box::new(SobolSampler::new(seed)),
-        SamplerKind::BlueNoise => {
-            Box::new(BlueNoiseSampler::new(scene.film().resolution, samples_per_set, seed))
-        }
-    }
+    settings.kind.make(&SampleSets {
+        resolution: scene.film().resolution,
+        samples_per_set: settings.spp / settings.sets(),
+        seed: settings.seed,
+    })
 }

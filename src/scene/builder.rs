@@ -158,7 +158,7 @@ impl SceneBuilder {
         self.add_shape(name.into(), mesh, Some(material.into()), Some(emission))
     }
 
-    pub(super) fn add_shape(
+    pub(crate) fn add_shape(
         mut self,
         name: String,
         mesh: TriangleMesh,
@@ -173,6 +173,13 @@ impl SceneBuilder {
     pub fn light(mut self, light: impl Light + 'static) -> Self {
         self.known_lights.push(KnownLight::new(&light));
         self.lights.push(Arc::new(light));
+        self
+    }
+
+    /// Adds a light that may be held elsewhere too.
+    pub fn shared_light(mut self, light: Arc<dyn Light>) -> Self {
+        self.known_lights.push(None);
+        self.lights.push(light);
         self
     }
 

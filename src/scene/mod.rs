@@ -1,18 +1,13 @@
 //! Scenes: what there is to be rendered, and how.
 
 mod builder;
-mod file;
 mod settings;
 
 use std::sync::Arc;
 
+pub use crate::sampling::SamplerKind;
 pub use builder::{SceneBuilder, SceneError};
-pub use file::{
-    LoadReport, LoadedScene, Place, Problem, SceneFileError, parse_scene, read_scene, read_settings,
-};
-pub use settings::{
-    Emission, FilmSettings, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings,
-};
+pub use settings::{Emission, FilmSettings, IntegratorSettings, LightStrategy, SamplerSettings};
 
 use glam::Vec3;
 
@@ -27,7 +22,7 @@ use crate::material::Material;
 use crate::shape::TriangleMesh;
 
 /// A checked scene, ready to be rendered. It is made by [`Scene::builder`], or read from a file by
-/// [`read_scene`].
+/// [`read_scene`](crate::scene_file::read_scene).
 ///
 /// ```
 /// use lobe::glam::Vec3;

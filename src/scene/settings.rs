@@ -3,6 +3,8 @@
 use glam::UVec2;
 
 use crate::film::{Display, Filter, Window};
+use crate::params::{Choice, Key};
+use crate::sampling::SamplerKind;
 use crate::spectrum::Spectrum;
 
 /// The film's size and look.
@@ -25,30 +27,21 @@ impl FilmSettings {
     }
 }
 
-impl Default for FilmSettings {
+impl FilmSettings {
     /// 500 × 500 pixels, as in the chapter, shown by the sRGB curve.
-    fn default() -> Self {
-        Self {
-            resolution: UVec2::splat(500),
-            crop: None,
-            display: Display::Srgb,
-            filter: Filter::Box,
-        }
-    }
+    pub const DEFAULT: Self = Self {
+        resolution: UVec2::splat(500),
+        crop: None,
+        display: Display::Srgb,
+        filter: Filter::Box,
+    };
 }
 
-/// Which sampler.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum SamplerKind {
-    /// [`IndependentSampler`](crate::sampling::IndependentSampler).
-    #[default]
-    Independent,
-    /// [`StratifiedSampler`](crate::sampling::StratifiedSampler).
-    Stratified,
-    /// [`SobolSampler`](crate::sampling::SobolSampler).
-    Sobol,
-    /// [`BlueNoiseSampler`](crate::sampling::BlueNoiseSampler).
-    BlueNoise,
+impl Default for FilmSettings {
+    /// [`FilmSettings::DEFAULT`].
+    fn default() -> Self {
+        Self::DEFAULT
+    }
 }
 
 /// Which samples are taken.
@@ -73,7 +66,7 @@ impl SamplerSettings {
     /// How many independent sets the samples of a pixel are divided into, all of the same size: the largest
     /// divisor of `spp` that is not above `replicates`; one set if the samples do not know of each other.
     pub fn sets(&self) -> u32 {
-        if self.kind == SamplerKind::Independent {
+        if !self.kind.is_correlated() {
             return 1;
         }
         let most = self.replicates.min(self.spp).clamp(1, Self::MOST_SETS);
@@ -81,10 +74,16 @@ impl SamplerSettings {
     }
 }
 
-impl Default for SamplerSettings {
+impl SamplerSettings {
     /// 64 independent samples.
+    pub const DEFAULT: Self =
+        Self { kind: SamplerKind::INDEPENDENT, spp: 64, seed: 0, replicates: 2 };
+}
+
+impl Default for SamplerSettings {
+    /// [`SamplerSettings::DEFAULT`].
     fn default() -> Self {
-        Self { kind: SamplerKind::Independent, spp: 64, seed: 0, replicates: 2 }
+        Self::DEFAULT
     }
 }
 
@@ -136,6 +135,21 @@ pub enum LightStrategy {
     Light,
     /// From the surface alone. Lights without extent, which no ray hits by chance, are drawn from all the same.
     Bsdf,
+}
+
+impl Choice for LightStrategy {
+    const CHOICES: &'static [(&'static str, Self)] =
+        &[("auto", Self::Auto), ("mis", Self::Mis), ("light", Self::Light), ("bsdf", Self::Bsdf)];
+}
+
+impl LightStrategy {
+    /// The key by which integrators take one.
+    pub const KEY: Key<Self> = Key::new(
+        "strategy",
+        "how directions to lights are drawn: from the light, from the surface (bsdf), from both weighed against each \
+         other (mis), or by what suits each light (auto)",
+    )
+    .default(Self::Auto);
 }
 
 impl IntegratorSettings {

@@ -1,13 +1,19 @@
 //! Textures: values that may change over a surface.
 
 mod constant;
+mod read;
 
 use std::sync::Arc;
 
 pub use constant::ConstantTexture;
+pub use read::{AnyTexture, Read, TextureKey, TextureValue, Textures};
 
 use crate::interaction::SurfaceInteraction;
+use crate::params::Kind;
 use crate::spectrum::Spectrum;
+
+/// All kinds of textures.
+pub static TEXTURES: &[Kind<Read>] = &[constant::KIND];
 
 /// A map from points of surfaces to values of type `T`: `f32` for roughness, displacement and the
 /// like, [`Spectrum`] for colours.

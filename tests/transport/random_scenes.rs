@@ -3,8 +3,9 @@
 use lobe::glam::Vec3;
 use lobe::light::{DistantLight, SkyLight};
 use lobe::scene::{
-    Emission, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings, Scene, read_scene,
+    Emission, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings, Scene,
 };
+use lobe::scene_file::read_scene;
 use lobe::{
     CameraSettings, MatteMaterial, PointLight, RenderOptions, Spectrum, TriangleMesh, render,
 };
@@ -96,10 +97,10 @@ fn scene(trial: u64) -> Scene {
         mesh
     };
     let kinds = [
-        SamplerKind::Independent,
-        SamplerKind::Stratified,
-        SamplerKind::Sobol,
-        SamplerKind::BlueNoise,
+        SamplerKind::INDEPENDENT,
+        SamplerKind::STRATIFIED,
+        SamplerKind::SOBOL,
+        SamplerKind::BLUE_NOISE,
     ];
     let strategies =
         [LightStrategy::Auto, LightStrategy::Mis, LightStrategy::Light, LightStrategy::Bsdf];

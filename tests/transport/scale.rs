@@ -23,7 +23,7 @@ fn scene(scale: f32, shift: f32, seed: u64) -> SceneBuilder {
     Scene::builder()
         .camera(camera)
         .resolution(24, 24)
-        .sampler(SamplerSettings { kind: SamplerKind::Sobol, spp: 1024, seed, replicates: 64 })
+        .sampler(SamplerSettings { kind: SamplerKind::SOBOL, spp: 1024, seed, replicates: 64 })
         .integrator(IntegratorSettings::path(4))
         .material("red", MatteMaterial::new([0.8, 0.1, 0.2]))
         .material("blue", MatteMaterial::new([0.2, 0.3, 0.9]))

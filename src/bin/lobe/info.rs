@@ -3,10 +3,11 @@
 use std::error::Error;
 
 use clap::Args;
-use lobe::film::{Display, Filter};
-use lobe::scene::{
-    IntegratorSettings, LightStrategy, LoadedScene, SamplerKind, SamplerSettings, Scene,
-};
+use lobe::film::Filter;
+use lobe::integrator;
+use lobe::params::Choice;
+use lobe::scene::{IntegratorSettings, SamplerSettings, Scene};
+use lobe::scene_file::LoadedScene;
 use lobe::{CameraSettings, TriangleMesh};
 
 use crate::scene::SceneArguments;
@@ -78,56 +79,39 @@ fn add_settings(summary: &mut Summary, scene: &Scene) {
     };
     summary.add("camera", format!("{eye} to {look_at}, {fov} degrees, {lens}"));
     summary.add_film(scene.film());
-    let display = match scene.film().display {
-        Display::Srgb => "srgb",
-        Display::Exposure => "exposure",
-    };
-    summary.add("display", display);
+    summary.add("display", scene.film().display.name());
     summary.add("filter", filter(scene.film().filter));
     let SamplerSettings { kind, spp, seed, .. } = scene.sampler();
-    let kind = match kind {
-        SamplerKind::Independent => "independent",
-        SamplerKind::Stratified => "stratified",
-        SamplerKind::Sobol => "sobol",
-        SamplerKind::BlueNoise => "blue-noise",
-    };
     let sets = match scene.sampler().sets() {
         1 => String::new(),
         sets => format!(" in {sets} sets"),
     };
-    summary.add("sampler", format!("{kind}, {spp} samples per pixel{sets}, seed {seed}"));
+    summary.add("sampler", format!("{}, {spp} samples per pixel{sets}, seed {seed}", kind.name()));
     summary.add("integrator", integrator(scene.integrator()));
     summary.add("lights", scene.lights().len());
 }
 
 fn filter(filter: Filter) -> String {
+    let (name, radius) = (filter.name(), filter.radius());
     match filter {
-        Filter::Box => "box".into(),
-        Filter::Tent { radius } => format!("tent, radius {radius} pixels"),
-        Filter::Gaussian { radius, sigma } => {
-            format!("gaussian, radius {radius} pixels, sigma {sigma}")
-        }
-        Filter::BlackmanHarris { radius } => format!("blackman-harris, radius {radius} pixels"),
+        Filter::Box => name.into(),
+        Filter::Gaussian { sigma, .. } => format!("{name}, radius {radius} pixels, sigma {sigma}"),
+        _ => format!("{name}, radius {radius} pixels"),
     }
 }
 
 fn integrator(settings: &IntegratorSettings) -> String {
+    let name = integrator::name(settings);
     match *settings {
-        IntegratorSettings::Chapter { highlight: false } => "chapter".into(),
-        IntegratorSettings::Chapter { highlight: true } => "chapter with highlight".into(),
-        IntegratorSettings::Direct { strategy } => format!("direct, {}", name(strategy)),
+        IntegratorSettings::Chapter { highlight: false } => name.into(),
+        IntegratorSettings::Chapter { highlight: true } => format!("{name} with highlight"),
+        IntegratorSettings::Direct { strategy } => {
+            format!("{name}, strategy {}", strategy.name())
+        }
         IntegratorSettings::Path { max_depth, roulette, strategy } => {
             let roulette = if roulette { "roulette" } else { "no roulette" };
-            format!("path, up to {max_depth} reflections, {roulette}, {}", name(strategy))
+            let strategy = strategy.name();
+            format!("{name}, up to {max_depth} reflections, {roulette}, strategy {strategy}")
         }
-    }
-}
-
-fn name(strategy: LightStrategy) -> &'static str {
-    match strategy {
-        LightStrategy::Auto => "strategy auto",
-        LightStrategy::Mis => "strategy mis",
-        LightStrategy::Light => "strategy light",
-        LightStrategy::Bsdf => "strategy bsdf",
     }
 }

@@ -9,7 +9,8 @@ use clap::Args;
 use clap::value_parser;
 use lobe::film::Metadata;
 use lobe::render::Progress;
-use lobe::scene::{LoadedScene, SamplerSettings};
+use lobe::scene::SamplerSettings;
+use lobe::scene_file::LoadedScene;
 use lobe::{RenderOptions, render};
 
 use crate::output::{Format, Output};

@@ -163,8 +163,8 @@ impl<'a> Bench<'a> {
             Method::of_settings(self.scene, name, sampler, integrator, self.options)
         };
         [
-            by("reference", SamplerKind::Sobol, LightStrategy::Mis),
-            by("check", SamplerKind::Independent, LightStrategy::Light),
+            by("reference", SamplerKind::SOBOL, LightStrategy::Mis),
+            by("check", SamplerKind::INDEPENDENT, LightStrategy::Light),
         ]
     }
 

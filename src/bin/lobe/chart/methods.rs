@@ -4,7 +4,9 @@ use std::error::Error;
 use std::fs;
 use std::path::Path;
 
-use lobe::scene::{IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings, read_settings};
+use lobe::params::Choice;
+use lobe::scene::{IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings};
+use lobe::scene_file::read_settings;
 use toml::de::{DeTable, DeValue};
 
 use crate::scene::SceneArguments;
@@ -12,37 +14,24 @@ use crate::scene::SceneArguments;
 /// A name, and what it stands for.
 pub type Named = (String, SamplerSettings, IntegratorSettings);
 
-const SAMPLERS: [(SamplerKind, &str); 4] = [
-    (SamplerKind::Independent, "independent"),
-    (SamplerKind::Stratified, "stratified"),
-    (SamplerKind::Sobol, "sobol"),
-    (SamplerKind::BlueNoise, "blue-noise"),
-];
-
-const STRATEGIES: [(LightStrategy, &str); 4] = [
-    (LightStrategy::Auto, "auto"),
-    (LightStrategy::Mis, "mis"),
-    (LightStrategy::Light, "light"),
-    (LightStrategy::Bsdf, "bsdf"),
-];
-
 /// All samplers with the scene's integrator; and with Sobol points the other ways to find light, and the other choice of
 /// roulette.
 pub fn usual(sampler: SamplerSettings, integrator: IntegratorSettings) -> Vec<Named> {
     let with = |kind| SamplerSettings { kind, ..sampler };
-    let mut all: Vec<Named> =
-        SAMPLERS.map(|(kind, name)| (name.to_owned(), with(kind), integrator)).into();
-    let sobol = with(SamplerKind::Sobol);
-    for (other, name) in STRATEGIES {
+    let of_kind = |kind: SamplerKind| (kind.name().to_owned(), with(kind), integrator);
+    let mut all: Vec<Named> = SamplerKind::all().map(of_kind).collect();
+    let sobol = with(SamplerKind::SOBOL);
+    let name = sobol.kind.name();
+    for (other, strategy) in LightStrategy::CHOICES.iter().map(|&(name, other)| (other, name)) {
         let changed = with_strategy(integrator, other);
         if changed != integrator {
-            all.push((format!("sobol, {name}"), sobol, changed));
+            all.push((format!("{name}, {strategy}"), sobol, changed));
         }
     }
     if let IntegratorSettings::Path { max_depth, roulette, strategy } = integrator {
-        let name = if roulette { "sobol, no roulette" } else { "sobol, roulette" };
+        let roulette_is = if roulette { "no roulette" } else { "roulette" };
         let changed = IntegratorSettings::Path { max_depth, roulette: !roulette, strategy };
-        all.push((name.into(), sobol, changed));
+        all.push((format!("{name}, {roulette_is}"), sobol, changed));
     }
     all
 }

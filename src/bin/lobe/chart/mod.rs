@@ -17,7 +17,7 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args, value_parser};
 use lobe::metrics::convergence::{Method, Other};
 use lobe::metrics::{Encoding, Errors, Image};
-use lobe::scene::read_settings;
+use lobe::scene_file::read_settings;
 use lobe::{RenderOptions, Spectrum};
 
 use crate::scene::SceneArguments;
