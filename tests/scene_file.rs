@@ -428,11 +428,11 @@ fn values_out_of_range() {
         ),
         (
             "[film]\nresolution = [0, 5]",
-            "s.toml:2:14: `film.resolution` is [0, 5], expected an array of 2, each a whole number from 1 to 4294967295",
+            "s.toml:2:14: `film.resolution` is [0, 5], expected [x, y], each a whole number from 1 to 4294967295",
         ),
         (
             "[film]\nresolution = [4294967296, 5]",
-            "s.toml:2:14: `film.resolution` is [4294967296, 5], expected an array of 2, each a whole number from 1 to 4294967295",
+            "s.toml:2:14: `film.resolution` is [4294967296, 5], expected [x, y], each a whole number from 1 to 4294967295",
         ),
         (
             "[film]\ncrop = [0, 0, 501, 500]",

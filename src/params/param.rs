@@ -240,7 +240,7 @@ impl Param for UVec2 {
     }
 
     fn expected(limits: &Limits) -> String {
-        <[u32; 2]>::expected(limits)
+        format!("[x, y], each {}", u32::expected(limits))
     }
 
     fn example(limits: &Limits) -> Self {

@@ -4,7 +4,7 @@ mod page;
 mod table;
 
 use std::error::Error;
-use std::io::Write;
+use std::io::{self, Write};
 
 use clap::{Args, CommandFactory};
 use lobe::params::hint;
@@ -34,13 +34,14 @@ pub fn topics() -> String {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
-    let mut program = crate::Arguments::command();
-    let Some(topic) = &arguments.topic else { return Ok(program.print_long_help()?) };
-    // Names in usage lines are complete only then.
-    program.build();
-    if let Some(command) = program.find_subcommand_mut(topic) {
-        return Ok(command.print_long_help()?);
-    }
+    let program = crate::Arguments::command();
+    let topic = match arguments.topic.as_deref() {
+        None => return command_help(program, &[]),
+        Some(command) if program.find_subcommand(command).is_some() => {
+            return command_help(program, &[command]);
+        }
+        Some(topic) => topic,
+    };
     let text = match SECTIONS.iter().find(|section| section.plural() == topic) {
         Some(section) => table::table(*section),
         None if topic == PAGE => page::page(),
@@ -50,9 +51,22 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
             return Err(format!("there is no help on `{topic}`{}", hint(topic, known)).into());
         }
     };
-    match std::io::stdout().write_all(text.as_bytes()) {
-        // Whoever listened has read enough.
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+    unless_closed(std::io::stdout().write_all(text.as_bytes()))
+}
+
+/// What `--help` prints.
+fn command_help(program: clap::Command, command: &[&str]) -> Result<(), Box<dyn Error>> {
+    let arguments = ["lobe"].into_iter().chain(command.iter().copied()).chain(["--help"]);
+    match program.try_get_matches_from(arguments) {
+        Err(help) => unless_closed(help.print()),
+        Ok(_) => Ok(()),
+    }
+}
+
+/// Whoever closes a pipe has read enough.
+fn unless_closed(result: io::Result<()>) -> Result<(), Box<dyn Error>> {
+    match result {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         result => Ok(result?),
     }
 }
