@@ -70,7 +70,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let view = View::perspective(&camera, FilmSettings::default())?;
     let sampler =
-        SamplerSettings { kind: SamplerKind::Stratified, spp: 16, ..SamplerSettings::default() };
+        SamplerSettings { kind: SamplerKind::STRATIFIED, spp: 16, ..SamplerSettings::default() };
     let settings = RenderSettings { sampler, integrator: IntegratorSettings::direct() };
     let rendered = render(&scene, &view, &settings, &RenderOptions::default())?;
     write_png(Path::new(&file), &rendered.picture, Display::Srgb, &Metadata::default())?;

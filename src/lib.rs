@@ -3,13 +3,15 @@
 //!
 //! The rooms, from the ground up; none knows those below it in this list:
 //!
-//! - [`Spectrum`], linear RGB; [`geometry`], rays, shading frames and error-bounded points; [`sampling`], warps
-//!   of the unit square and the samplers that fill it; [`image`], pictures, and PNG, EXR and PFM files;
-//! - [`bxdf`], reflection models and their sum at a hit, [`bxdf::Bsdf`];
+//! - [`Spectrum`], linear RGB; [`params`], typed values with their places; [`geometry`], rays, shading frames and
+//!   error-bounded points; [`sampling`], warps of the unit square and the samplers that fill it; [`image`], pictures,
+//!   and PNG, EXR and PFM files;
 //! - [`shape`], triangle meshes and OBJ files; [`interaction`], what is known about a hit;
-//! - [`texture`], values over a surface; [`material`], which turns them into lobes; [`light`];
+//! - [`texture`], values over a surface; [`bxdf`], reflection models and their sum at a hit, [`bxdf::Bsdf`];
+//!   [`material`], which turns textures into lobes; [`light`];
 //! - [`accel`], rays against all triangles; [`camera`]; [`film`], filters and sums of samples;
-//! - [`scene`], what is rendered and how it is seen; [`integrator`], how light is computed; [`render`](mod@render), the loop;
+//! - [`scene`], what is rendered and how it is seen; [`scene_file`], scenes from TOML;
+//! - [`integrator`], how light is computed; [`render`](mod@render), the loop;
 //! - [`metrics`], errors between images, convergence and charts.
 //!
 //! Traits are the doors for other crates: [`bxdf::BxDF`], [`texture::Texture`], [`material::Material`],
@@ -31,9 +33,11 @@ pub mod interaction;
 pub mod light;
 pub mod material;
 pub mod metrics;
+pub mod params;
 pub mod render;
 pub mod sampling;
 pub mod scene;
+pub mod scene_file;
 pub mod shape;
 mod spectrum;
 pub mod texture;

@@ -77,12 +77,12 @@ impl Material for ForeignMaterial {
 fn rendering_allocates_nothing_after_set_up() {
     let chapter = IntegratorSettings::Chapter { highlight: true };
     for (integrator, kind) in [
-        (chapter, SamplerKind::Independent),
-        (IntegratorSettings::direct(), SamplerKind::Independent),
-        (IntegratorSettings::direct(), SamplerKind::Stratified),
-        (IntegratorSettings::Direct { strategy: LightStrategy::Mis }, SamplerKind::Sobol),
-        (IntegratorSettings::path(6), SamplerKind::Sobol),
-        (IntegratorSettings::path(6), SamplerKind::BlueNoise),
+        (chapter, SamplerKind::INDEPENDENT),
+        (IntegratorSettings::direct(), SamplerKind::INDEPENDENT),
+        (IntegratorSettings::direct(), SamplerKind::STRATIFIED),
+        (IntegratorSettings::Direct { strategy: LightStrategy::Mis }, SamplerKind::SOBOL),
+        (IntegratorSettings::path(6), SamplerKind::SOBOL),
+        (IntegratorSettings::path(6), SamplerKind::BLUE_NOISE),
     ] {
         let sampler = SamplerSettings { kind, spp: 16, ..Default::default() };
         let film = FilmSettings { filter: Filter::gaussian(), ..FilmSettings::new(100, 80) };

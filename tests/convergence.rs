@@ -61,7 +61,7 @@ fn reference(scene: &Scene) -> Reference {
     let mut pool = RunningMean::default();
     for part in 0..u64::from(PARTS) {
         let sampler = SamplerSettings {
-            kind: SamplerKind::Sobol,
+            kind: SamplerKind::SOBOL,
             spp: 256,
             seed: 1000 + part,
             replicates: 1,

@@ -16,8 +16,12 @@ use lobe::{
 };
 use scenes::{ball_over_floor, chapter_camera};
 
-const SAMPLERS: [SamplerKind; 4] =
-    [SamplerKind::Independent, SamplerKind::Stratified, SamplerKind::Sobol, SamplerKind::BlueNoise];
+const SAMPLERS: [SamplerKind; 4] = [
+    SamplerKind::INDEPENDENT,
+    SamplerKind::STRATIFIED,
+    SamplerKind::SOBOL,
+    SamplerKind::BLUE_NOISE,
+];
 
 const RESOLUTION: UVec2 = UVec2::new(53, 37);
 
@@ -138,7 +142,7 @@ fn passes_add_up_to_one() {
 #[test]
 fn seed_decides() {
     let with =
-        |seed| picture(&view(None), &settings(SamplerKind::Independent, 2, seed), 2, 16).color;
+        |seed| picture(&view(None), &settings(SamplerKind::INDEPENDENT, 2, seed), 2, 16).color;
     assert_eq!(with(1), with(1));
     assert_ne!(with(1), with(2));
 }

@@ -11,10 +11,8 @@ use lobe::film::Filter;
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::image::{Display, Window};
 use lobe::light::Light;
-use lobe::scene::{
-    IntegratorSettings, LightStrategy, LoadedScene, SamplerKind, SamplerSettings, SceneFileError,
-    parse_scene, read_scene,
-};
+use lobe::scene::{IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings};
+use lobe::scene_file::{LoadedScene, SceneFileError, parse_scene, read_scene};
 use lobe::{PerspectiveSettings, RenderSettings, Spectrum, View};
 
 /// A folder of this test's own with a triangle in it.
@@ -122,7 +120,7 @@ fn a_file_gives_its_scene() {
     assert_eq!(film.crop, Some(Window { min: UVec2::new(10, 0), max: UVec2::new(50, 30) }));
     assert_eq!(film.display, Display::Exposure);
     let RenderSettings { sampler, integrator } = settings;
-    assert_eq!(sampler.kind, SamplerKind::Stratified);
+    assert_eq!(sampler.kind, SamplerKind::STRATIFIED);
     assert_eq!((sampler.spp, sampler.seed), (16, u64::MAX));
     assert_eq!(integrator, IntegratorSettings::Chapter { highlight: true });
     let light = scene.lights()[0].sample_li(Vec3::new(10.0, 10.0, 0.0), Default::default());
@@ -166,7 +164,7 @@ fn a_file_with_light_gives_its_scene() {
     let LoadedScene { scene, view, settings, .. } = parse(text, &[]).unwrap();
     assert_eq!(view.film().filter, Filter::Gaussian { radius: 1.5, sigma: 0.4 });
     let RenderSettings { sampler, integrator } = settings;
-    assert_eq!((sampler.kind, sampler.replicates), (SamplerKind::BlueNoise, 4));
+    assert_eq!((sampler.kind, sampler.replicates), (SamplerKind::BLUE_NOISE, 4));
     let path =
         IntegratorSettings::Path { max_depth: 9, roulette: false, strategy: LightStrategy::Mis };
     assert_eq!(integrator, path);
@@ -192,7 +190,7 @@ fn everything_has_a_default_in_an_empty_file() {
         assert_eq!(settings, Default::default());
         // Sobol points and paths, and not what was first in the book.
         let SamplerSettings { kind, spp, .. } = settings.sampler;
-        assert_eq!((kind, spp), (SamplerKind::Sobol, 64));
+        assert_eq!((kind, spp), (SamplerKind::SOBOL, 64));
         assert_eq!(settings.integrator, IntegratorSettings::path(5));
         assert_eq!(scene.shapes().count(), 0);
     }
@@ -249,13 +247,13 @@ fn unknown_keys() {
         // A message is one line, whatever the text.
         (
             "[camera]\n\"a\\nb\" = 3",
-            "s.toml:2:1: unknown key `a\\nb` in [camera]; expected `eye`, `look_at`, `up`, `fov`, `lens_radius` or `focal_distance`",
+            "s.toml:2:1: unknown key `a\\nb` in [camera]; expected `type`, `eye`, `look_at`, `up`, `fov`, `lens_radius` or `focal_distance`",
         ),
         ("[camera]\nfvo = 3", "s.toml:2:1: unknown key `fvo` in [camera]; did you mean `fov`?"),
         ("[camrea]", "s.toml:1:2: unknown key `camrea` in the scene; did you mean `camera`?"),
         (
             "camera = { eye = \"é\", width = 2 }",
-            "s.toml:1:23: unknown key `width` in [camera]; expected `eye`, `look_at`, `up`, `fov`, `lens_radius` or `focal_distance`",
+            "s.toml:1:23: unknown key `width` in [camera]; expected `type`, `eye`, `look_at`, `up`, `fov`, `lens_radius` or `focal_distance`",
         ),
         (
             "[film]\n  Display = 1",
@@ -268,11 +266,11 @@ fn unknown_keys() {
         ),
         (
             "[film]\nfilter_radius = 2",
-            "s.toml:2:1: unknown key `filter_radius` in [film]; expected `resolution`, `crop`, `display` or `filter`",
+            "s.toml:2:1: unknown key `filter_radius` in [film]; expected `filter`, `resolution`, `crop` or `display`",
         ),
         (
             "[film]\nfilter = \"tent\"\nfilter_sigma = 2",
-            "s.toml:3:1: unknown key `filter_sigma` in [film]; expected `resolution`, `crop`, `display`, `filter` or `filter_radius`",
+            "s.toml:3:1: unknown key `filter_sigma` in [film]; expected `filter`, `filter_radius`, `resolution`, `crop` or `display`",
         ),
         (
             "[integrator]\ntype = \"direct\"\nmax_depth = 2",
@@ -280,7 +278,7 @@ fn unknown_keys() {
         ),
         (
             "[shape.s]\ntype = \"rectangle\"\nobj = \"a.obj\"",
-            "s.toml:3:1: unknown key `obj` in [shape.s] of type \"rectangle\"; expected `corner`, `edges`, `material`, `scale`, `rotate`, `translate`, `type` or `emission`",
+            "s.toml:3:1: unknown key `obj` in [shape.s] of type \"rectangle\"; expected `type`, `corner`, `edges`, `material`, `emission`, `two_sided`, `scale`, `rotate` or `translate`",
         ),
         (
             "[light.l]\ntype = \"sky\"\nintensity = 1",
@@ -324,7 +322,7 @@ fn missing_keys() {
         ),
         (
             "[light.l]\ntype = \"point\"\nintensity = [1, 1, 1]",
-            "s.toml:1:1: [light.l] lacks `position`, expected an array of 3, each a finite number",
+            "s.toml:1:1: [light.l] lacks `position`, expected [x, y, z], all finite",
         ),
         (
             "[light.l]\ntype = \"distant\"\nirradiance = [1, 1, 1]",
@@ -336,7 +334,7 @@ fn missing_keys() {
         ),
         (
             "[shape.s]\ntype = \"rectangle\"\ncorner = [0, 0, 0]",
-            "s.toml:1:1: [shape.s] lacks `edges`, expected an array of 2, each an array of 3, each a finite number",
+            "s.toml:1:1: [shape.s] lacks `edges`, expected an array of 2, each [x, y, z], all finite",
         ),
         (
             "[light.l]\ntype = \"point\"\nposition = [1, 1, 1]",
@@ -361,19 +359,19 @@ fn wrong_types() {
         ("[shape]\ns = \"x.obj\"", "s.toml:2:5: `shape.s` is \"x.obj\", expected a table"),
         (
             "[camera]\nfov = \"wide\"",
-            "s.toml:2:7: `camera.fov` is \"wide\", expected a finite number",
+            "s.toml:2:7: `camera.fov` is \"wide\", expected degrees above 0 and below 180",
         ),
         (
             "[camera]\neye = [1, true, 3]",
-            "s.toml:2:7: `camera.eye` is [1, true, 3], expected an array of 3, each a finite number",
+            "s.toml:2:7: `camera.eye` is [1, true, 3], expected [x, y, z], all finite",
         ),
         (
             "[camera]\nup = [0, 1]",
-            "s.toml:2:6: `camera.up` is [0, 1], expected an array of 3, each a finite number",
+            "s.toml:2:6: `camera.up` is [0, 1], expected [x, y, z], all finite",
         ),
         (
             "[camera]\nup = 1979-05-27",
-            "s.toml:2:6: `camera.up` is 1979-05-27, expected an array of 3, each a finite number",
+            "s.toml:2:6: `camera.up` is 1979-05-27, expected [x, y, z], all finite",
         ),
         (
             "[film]\ndisplay = \"sRGB\"",
@@ -385,7 +383,7 @@ fn wrong_types() {
         ),
         (
             "[sampler]\nspp = 1.5",
-            "s.toml:2:7: `sampler.spp` is 1.5, expected a whole number from 0 to 4294967295",
+            "s.toml:2:7: `sampler.spp` is 1.5, expected a whole number from 1 to 4294967295",
         ),
         (
             "[sampler]\nseed = -1",
@@ -401,13 +399,14 @@ fn wrong_types() {
         ),
         (
             "[material.m]\ntype = \"matte\"\nkd = true",
-            "s.toml:3:6: `material.m.kd` is true, expected a texture's name, a number or [red, green, blue], all finite",
+            "s.toml:3:6: `material.m.kd` is true, expected a texture's name or [red, green, blue], each from 0 to 1",
         ),
         ("[shape.s]\nobj = 3", "s.toml:2:7: `shape.s.obj` is 3, expected a text in quotes"),
     ]);
     let long = format!("[camera]\nfov = \"{}\"", "ü".repeat(100));
     let found = format!("\"{}…", "ü".repeat(58));
-    let message = format!("s.toml:2:7: `camera.fov` is {found}, expected a finite number");
+    let message =
+        format!("s.toml:2:7: `camera.fov` is {found}, expected degrees above 0 and below 180");
     assert_eq!(refused(&long, &[]), message);
 }
 
@@ -420,21 +419,27 @@ fn values_out_of_range() {
         ),
         (
             "[camera]\nfov = 180",
-            "s.toml:2:7: the camera's fov is 180 degrees: it has to be above 0 and below 180",
+            "s.toml:2:7: `camera.fov` is 180, expected degrees above 0 and below 180",
         ),
-        ("[camera]\nfov = nan", "s.toml:2:7: `camera.fov` is nan, expected a finite number"),
-        ("[camera]\nfov = 1e39", "s.toml:2:7: `camera.fov` is 1e39, expected a finite number"),
+        (
+            "[camera]\nfov = nan",
+            "s.toml:2:7: `camera.fov` is nan, expected degrees above 0 and below 180",
+        ),
+        (
+            "[camera]\nfov = 1e39",
+            "s.toml:2:7: `camera.fov` is 1e39, expected degrees above 0 and below 180",
+        ),
         (
             "[camera]\neye = [0, -inf, 0]",
-            "s.toml:2:7: `camera.eye` is [0, -inf, 0], expected an array of 3, each a finite number",
+            "s.toml:2:7: `camera.eye` is [0, -inf, 0], expected [x, y, z], all finite",
         ),
         (
             "[camera]\nlens_radius = -1",
-            "s.toml:2:15: the camera's lens_radius is -1: it cannot be negative",
+            "s.toml:2:15: `camera.lens_radius` is -1, expected a finite number of at least 0",
         ),
         (
             "[camera]\nfocal_distance = 0",
-            "s.toml:2:18: the camera's focal_distance is 0: it has to be above 0",
+            "s.toml:2:18: `camera.focal_distance` is 0, expected a finite number above 0",
         ),
         (
             "\n[camera]\neye = [0, 0, 1]",
@@ -446,11 +451,11 @@ fn values_out_of_range() {
         ),
         (
             "[film]\nresolution = [0, 5]",
-            "s.toml:2:14: the film's resolution is 0 x 5: both have to be at least 1",
+            "s.toml:2:14: `film.resolution` is [0, 5], expected [x, y], each a whole number from 1 to 4294967295",
         ),
         (
             "[film]\nresolution = [4294967296, 5]",
-            "s.toml:2:14: `film.resolution` is [4294967296, 5], expected an array of 2, each a whole number from 0 to 4294967295",
+            "s.toml:2:14: `film.resolution` is [4294967296, 5], expected [x, y], each a whole number from 1 to 4294967295",
         ),
         (
             "[film]\ncrop = [0, 0, 501, 500]",
@@ -460,7 +465,10 @@ fn values_out_of_range() {
             "[film]\ncrop = [9, 0, 8, 500]",
             "s.toml:2:8: the film's crop [9, 0, 8, 500] is empty or reaches beyond its resolution of 500 x 500",
         ),
-        ("[sampler]\nspp = 0", "s.toml:2:7: the sampler's spp is 0: it has to be at least 1"),
+        (
+            "[sampler]\nspp = 0",
+            "s.toml:2:7: `sampler.spp` is 0, expected a whole number from 1 to 4294967295",
+        ),
         (
             "[sampler]\nseed = 0xFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFF",
             "s.toml:2:8: `sampler.seed` is 0xFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFF, expected a whole number from 0 to 18446744073709551615",
@@ -487,11 +495,11 @@ fn values_out_of_range() {
         ),
         (
             "[film]\nfilter = \"tent\"\nfilter_radius = 0",
-            "s.toml:3:17: the filter's radius is 0: it has to be above 0 and at most 16 pixels",
+            "s.toml:3:17: `film.filter_radius` is 0, expected pixels above 0 and up to 16",
         ),
         (
             "[film]\nfilter = \"gaussian\"\nfilter_sigma = -1",
-            "s.toml:3:16: the filter's sigma is -1: it has to be finite and above 0",
+            "s.toml:3:16: `film.filter_sigma` is -1, expected pixels above 0",
         ),
         (
             "[shape.s]\nscale = [1, 0, 1]",
@@ -519,7 +527,7 @@ fn names_of_nothing() {
         ("kd = \"\"", "s.toml:3:39: the scene has no texture ``; expected `red` or `rough`"),
         (
             "bump = \"red\"",
-            "s.toml:3:41: `material.mat.bump` is the texture \"red\", [1, 0, 0], expected a number",
+            "s.toml:3:41: `material.mat.bump` is the texture \"red\", [1, 0, 0], expected a finite number",
         ),
         (
             "kd = \"rough\"",
@@ -623,12 +631,12 @@ fn bad_overrides() {
         ),
         (
             "camera.fov=200",
-            "--set camera.fov=200: the camera's fov is 200 degrees: it has to be above 0 and below 180",
+            "--set camera.fov=200: `camera.fov` is 200, expected degrees above 0 and below 180",
         ),
         ("camera=3", "--set camera=3: `camera` is 3, expected a table"),
         (
             "camera.fov.x=3",
-            "--set camera.fov.x=3: `camera.fov` is a table, expected a finite number",
+            "--set camera.fov.x=3: `camera.fov` is a table, expected degrees above 0 and below 180",
         ),
         (
             "camera.fov=1=2",

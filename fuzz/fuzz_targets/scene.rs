@@ -4,7 +4,7 @@
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
-    if let Err(error) = lobe::scene::parse_scene("fuzz.toml".as_ref(), text, &[]) {
+    if let Err(error) = lobe::scene_file::parse_scene("fuzz.toml".as_ref(), text, &[]) {
         let message = error.to_string();
         assert!(message.starts_with("fuzz.toml") && !message.contains('\n'), "{message}");
     }

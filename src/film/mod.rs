@@ -12,6 +12,6 @@ mod pixel_sum;
 mod variance;
 
 pub use film_sums::{Film, FilmContents, FilmError};
-pub use filter::{Filter, FilterError};
+pub use filter::{FILTERS, Filter, FilterError, ReadFilter};
 pub use filter_sampler::FilterSampler;
 pub use variance::Variance;

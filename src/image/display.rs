@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use crate::params::Choice;
 use crate::spectrum::Spectrum;
 
 /// A transfer curve: it encodes linear values as the codes of a screen, 0 to 255.
@@ -25,6 +26,11 @@ pub enum Display {
     Srgb,
     /// A photographic exposure, 1 - exp(-4 L), without gamma. It approaches white; values from 1.56 on get code 255.
     Exposure,
+}
+
+impl Choice for Display {
+    const CHOICES: &'static [(&'static str, Self)] =
+        &[("srgb", Self::Srgb), ("exposure", Self::Exposure)];
 }
 
 impl Display {

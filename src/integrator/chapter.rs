@@ -77,3 +77,22 @@ fn blinn_phong(n: Vec3, wo: Vec3, wi: Vec3) -> f32 {
     let diffuse = wi.dot(n).max(0.0);
     1.5 * (0.2 + 0.2 * diffuse + 0.7 * specular)
 }
+
+use super::Read;
+use crate::params::{Fault, Key, Kind, Table};
+use crate::scene::IntegratorSettings;
+
+const HIGHLIGHT: Key<bool> =
+    Key::new("highlight", "whether to multiply by the Blinn-Phong factor").default(false);
+
+/// `type = "chapter"`
+pub(super) const KIND: Kind<Read> = Kind {
+    name: "chapter",
+    meaning: "The chapter's estimator: a brightness without shadows, falloff and intensity",
+    keys: &[&HIGHLIGHT],
+    read,
+};
+
+fn read(table: &Table) -> Result<IntegratorSettings, Fault> {
+    Ok(IntegratorSettings::Chapter { highlight: table.get(&HIGHLIGHT)? })
+}

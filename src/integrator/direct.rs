@@ -21,3 +21,19 @@ impl Integrator for DirectIntegrator {
         Box::new(PathTracer::new(scene, max_depth, roulette, self.strategy, LightChoice::All))
     }
 }
+
+use super::Read;
+use crate::params::{Fault, Kind, Table};
+use crate::scene::IntegratorSettings;
+
+/// `type = "direct"`
+pub(super) const KIND: Kind<Read> = Kind {
+    name: "direct",
+    meaning: "Light that is emitted, or reflected once",
+    keys: &[&LightStrategy::KEY],
+    read,
+};
+
+fn read(table: &Table) -> Result<IntegratorSettings, Fault> {
+    Ok(IntegratorSettings::Direct { strategy: table.get(&LightStrategy::KEY)? })
+}

@@ -273,3 +273,29 @@ fn scatter_one(vertices: &mut Vertices, turn: usize, (path, ray, hit): (&Path, &
         }
     }
 }
+
+use super::Read;
+use crate::params::{Fault, Key, Kind, Table};
+use crate::scene::IntegratorSettings;
+
+/// As many as in PBRT by default.
+const MAX_DEPTH: Key<u32> =
+    Key::new("max_depth", "the most times that light is reflected").default(5);
+const ROULETTE: Key<bool> =
+    Key::new("roulette", "whether paths that carry little end at random").default(true);
+
+/// `type = "path"`
+pub(super) const KIND: Kind<Read> = Kind {
+    name: "path",
+    meaning: "Light that is reflected up to max_depth times",
+    keys: &[&MAX_DEPTH, &ROULETTE, &LightStrategy::KEY],
+    read,
+};
+
+fn read(table: &Table) -> Result<IntegratorSettings, Fault> {
+    Ok(IntegratorSettings::Path {
+        max_depth: table.get(&MAX_DEPTH)?,
+        roulette: table.get(&ROULETTE)?,
+        strategy: table.get(&LightStrategy::KEY)?,
+    })
+}

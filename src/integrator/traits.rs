@@ -1,8 +1,12 @@
 //! The contracts of integrators.
 
-use super::Wave;
+use super::wave::Wave;
+use crate::params::{Fault, Table};
 use crate::sampling::Sampler;
-use crate::scene::Scene;
+use crate::scene::{IntegratorSettings, Scene};
+
+/// How a kind of integrator is read.
+pub type Read = fn(&Table) -> Result<IntegratorSettings, Fault>;
 
 /// A way to compute how much light arrives along camera rays: plain settings, for any scene.
 ///

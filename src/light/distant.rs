@@ -1,11 +1,13 @@
 //! [`DistantLight`].
 
 use std::f32::consts::PI;
+use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
-use super::{BoundingSphere, Light, LightSample};
+use super::{BoundingSphere, Light, LightSample, Read};
 use crate::geometry::unit;
+use crate::params::{Direction, Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
 
 /// A light from infinitely far away whose rays are parallel, like the sun's (PBRT 3rd edition,
@@ -39,4 +41,24 @@ impl Light for DistantLight {
     fn power(&self, scene: &BoundingSphere) -> Option<Spectrum> {
         Some(self.irradiance * (PI * scene.radius * scene.radius))
     }
+}
+
+const DIRECTION: Key<Direction> = Key::new("direction", "where the light goes, of any length");
+const IRRADIANCE: Key<Spectrum> =
+    Key::new("irradiance", "on a surface across the light, in W / m²").at_least(0.0);
+
+/// `type = "distant"`
+pub(super) const KIND: Kind<Read> = Kind {
+    name: "distant",
+    meaning: "Parallel light from infinitely far away, like the sun's",
+    keys: &[&DIRECTION, &IRRADIANCE],
+    read,
+};
+
+fn read(table: &Table) -> Result<Arc<dyn Light>, Fault> {
+    let irradiance = table.get(&IRRADIANCE)?;
+    let Direction(direction) = table.get(&DIRECTION)?;
+    // The light knows where it comes from, a file says where it goes.
+    let light = DistantLight::new(-direction, irradiance);
+    light.map(|light| Arc::new(light) as _).ok_or_else(|| table.missing(&DIRECTION))
 }

@@ -14,4 +14,9 @@ pub use light_sampler::{LightChoice, LightSampler};
 pub use point::PointLight;
 pub use sky::SkyLight;
 pub(crate) use traits::one_by_one;
-pub use traits::{BoundingSphere, Light, LightHit, LightSample, LightSamplesX4};
+pub use traits::{BoundingSphere, Light, LightHit, LightSample, LightSamplesX4, Read};
+
+use crate::params::Kind;
+
+/// All kinds of lights that stand alone; surfaces that emit are shapes.
+pub static LIGHTS: &[Kind<Read>] = &[point::KIND, distant::KIND, sky::KIND];

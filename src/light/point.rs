@@ -1,9 +1,12 @@
 //! [`PointLight`].
 
+use std::sync::Arc;
+
 use glam::{BVec4A, Vec2, Vec3, Vec4};
 
-use super::{BoundingSphere, Light, LightSample, LightSamplesX4};
+use super::{BoundingSphere, Light, LightSample, LightSamplesX4, Read};
 use crate::geometry::four::{Vec3x4, four};
+use crate::params::{Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
 
 /// A light without extent that shines alike in all directions (PBRT 3rd edition, section 12.3).
@@ -60,4 +63,20 @@ impl Light for PointLight {
             };
         }
     }
+}
+
+const POSITION: Key<Vec3> = Key::new("position", "where it is, in world space");
+const INTENSITY: Key<Spectrum> =
+    Key::new("intensity", "radiant intensity, in W / sr").at_least(0.0);
+
+/// `type = "point"`
+pub(super) const KIND: Kind<Read> = Kind {
+    name: "point",
+    meaning: "A point that shines alike in all directions",
+    keys: &[&POSITION, &INTENSITY],
+    read,
+};
+
+fn read(table: &Table) -> Result<Arc<dyn Light>, Fault> {
+    Ok(Arc::new(PointLight::new(table.get(&POSITION)?, table.get(&INTENSITY)?)))
 }

@@ -1,11 +1,13 @@
 //! [`SkyLight`].
 
 use std::f32::consts::PI;
+use std::sync::Arc;
 
 use glam::{BVec4A, Vec2, Vec3, Vec4};
 
-use super::{BoundingSphere, Light, LightHit, LightSample, LightSamplesX4};
+use super::{BoundingSphere, Light, LightHit, LightSample, LightSamplesX4, Read};
 use crate::geometry::four::Vec3x4;
+use crate::params::{Fault, Key, Kind, Table};
 use crate::sampling::uniform_sphere;
 use crate::spectrum::Spectrum;
 
@@ -70,4 +72,15 @@ impl Light for SkyLight {
             };
         }
     }
+}
+
+const RADIANCE: Key<Spectrum> =
+    Key::new("radiance", "from every direction, in W / (m² sr)").at_least(0.0);
+
+/// `type = "sky"`
+pub(super) const KIND: Kind<Read> =
+    Kind { name: "sky", meaning: "The same radiance from everywhere", keys: &[&RADIANCE], read };
+
+fn read(table: &Table) -> Result<Arc<dyn Light>, Fault> {
+    Ok(Arc::new(SkyLight::new(table.get(&RADIANCE)?)))
 }

@@ -6,7 +6,11 @@ use glam::{BVec4A, Vec2, Vec3, Vec4};
 
 use crate::geometry::four::{Vec3x4, four};
 use crate::interaction::SurfaceInteraction;
+use crate::params::{Fault, Table};
 use crate::spectrum::Spectrum;
+
+/// How a kind of light is read.
+pub type Read = fn(&Table) -> Result<Arc<dyn Light>, Fault>;
 
 /// Light that may arrive at a point, from one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,13 @@
 //! [`MatteMaterial`]: purely diffuse.
 
-use super::{Material, bump};
+use std::sync::Arc;
+
+use super::{Material, Read, bump};
 use crate::bxdf::{Arena, Bsdf, LambertianReflection, OrenNayar};
 use crate::interaction::SurfaceInteraction;
+use crate::params::{Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
-use crate::texture::{Texture, TextureHandle};
+use crate::texture::{Texture, TextureHandle, TextureKey, Textures};
 
 /// A purely diffuse surface, smooth or rough (PBRT 3rd edition, section 9.2.1).
 ///
@@ -65,4 +68,34 @@ impl Material for MatteMaterial {
         let r = kd.clamp(0.0, 1.0);
         (plain && !r.is_black()).then(|| LambertianReflection::new(r))
     }
+}
+
+/// Half of the light by default, as in PBRT.
+const KD: TextureKey<Spectrum> = TextureKey::of(
+    Key::new("kd", "reflected share of the light").range(0.0..=1.0).default(Spectrum::splat(0.5)),
+);
+const SIGMA: TextureKey<f32> = TextureKey::of(
+    Key::new("sigma", "roughness: standard deviation of the surface's slopes")
+        .in_unit("degrees")
+        .range(0.0..=90.0)
+        .default(0.0),
+);
+const BUMP: TextureKey<Option<f32>> =
+    TextureKey::of(Key::optional("bump", "displacement along the normal, in scene units"));
+
+/// `type = "matte"`
+pub(super) const KIND: Kind<Read> = Kind {
+    name: "matte",
+    meaning: "Purely diffuse: Lambert's law, or Oren-Nayar where sigma is not 0",
+    keys: &[&KD, &SIGMA, &BUMP],
+    read,
+};
+
+fn read(table: &Table, textures: &Textures) -> Result<Arc<dyn Material>, Fault> {
+    let matte = MatteMaterial::new(textures.get(table, &KD)?);
+    let matte = matte.with_sigma(textures.get(table, &SIGMA)?);
+    Ok(match textures.find(table, &BUMP)? {
+        Some(displacement) => Arc::new(matte.with_bump(displacement)),
+        None => Arc::new(matte),
+    })
 }

@@ -6,4 +6,9 @@ mod traits;
 
 pub use bump::bump;
 pub use matte::MatteMaterial;
-pub use traits::Material;
+pub use traits::{Material, Read};
+
+use crate::params::Kind;
+
+/// All kinds of materials.
+pub static MATERIALS: &[Kind<Read>] = &[matte::KIND];

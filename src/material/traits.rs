@@ -4,6 +4,11 @@ use std::sync::Arc;
 
 use crate::bxdf::{Arena, Bsdf, LambertianReflection};
 use crate::interaction::SurfaceInteraction;
+use crate::params::{Fault, Table};
+use crate::texture::Textures;
+
+/// How a kind of material is read.
+pub type Read = fn(&Table, &Textures) -> Result<Arc<dyn Material>, Fault>;
 
 /// What a surface is made of.
 ///

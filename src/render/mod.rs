@@ -16,10 +16,8 @@ use crate::clock::Stopwatch;
 use crate::film::{Film, FilmContents, FilmError, Variance};
 use crate::image::Picture;
 use crate::integrator::{self, Counters, Integrator};
-use crate::sampling::{
-    BlueNoiseSampler, IndependentSampler, Sampler, SobolSampler, StratifiedSampler,
-};
-use crate::scene::{RenderSettings, SamplerKind, SamplerSettings, Scene, SettingsError, View};
+use crate::sampling::{SampleSets, Sampler};
+use crate::scene::{RenderSettings, SamplerSettings, Scene, SettingsError, View};
 use pass::Pass;
 use schedule::PassSchedule;
 
@@ -244,13 +242,9 @@ struct Ended {
 
 /// The sampler that the settings ask for.
 fn sampler_from_settings(view: &View, settings: &SamplerSettings) -> Box<dyn Sampler> {
-    let (seed, samples_per_set) = (settings.seed, settings.spp / settings.sets());
-    match settings.kind {
-        SamplerKind::Independent => Box::new(IndependentSampler::new(seed)),
-        SamplerKind::Stratified => Box::new(StratifiedSampler::new(samples_per_set, seed)),
-        SamplerKind::Sobol => Box::new(SobolSampler::new(seed)),
-        SamplerKind::BlueNoise => {
-            Box::new(BlueNoiseSampler::new(view.film().resolution, samples_per_set, seed))
-        }
-    }
+    settings.kind.make(&SampleSets {
+        resolution: view.film().resolution,
+        samples_per_set: settings.spp / settings.sets(),
+        seed: settings.seed,
+    })
 }

@@ -4,7 +4,8 @@ use glam::{UVec2, Vec2};
 
 use super::hash::{hash, mix};
 use super::sobol::couple;
-use super::{SampleId, Sampler, SobolSampler};
+use super::{Make, SampleId, Sampler, SamplerKind, SobolSampler};
+use crate::params::Kind;
 
 /// Sobol points distributed over the whole image, so that the errors of neighbouring pixels tend to
 /// cancel: error is blue noise in screen space. It looks finer than that of other samplers, and
@@ -111,7 +112,7 @@ impl BlueNoiseSampler {
 
 impl Sampler for BlueNoiseSampler {
     fn is_correlated(&self) -> bool {
-        true
+        KIND.read.is_correlated
     }
 
     #[inline]
@@ -147,4 +148,22 @@ const ORDERS: [u32; 24] = {
         order += 1;
     }
     orders
+};
+
+impl SamplerKind {
+    /// [`BlueNoiseSampler`].
+    pub const BLUE_NOISE: Self = Self(&KIND);
+}
+
+/// `type = "blue-noise"`
+pub(super) const KIND: Kind<Make> = Kind {
+    name: "blue-noise",
+    meaning: "Sobol points whose error is blue noise over the image",
+    keys: &[],
+    read: Make {
+        is_correlated: true,
+        make: |sets| {
+            Box::new(BlueNoiseSampler::new(sets.resolution, sets.samples_per_set, sets.seed))
+        },
+    },
 };

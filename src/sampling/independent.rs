@@ -3,7 +3,8 @@
 use glam::Vec2;
 
 use super::hash::{hash, hash_in_set, hash_set, mix, unit_float};
-use super::{SampleId, Sampler};
+use super::{Make, SampleId, Sampler, SamplerKind};
+use crate::params::Kind;
 
 /// Independent uniform random numbers. The standard error of n samples falls as 1/√n.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +29,7 @@ impl IndependentSampler {
 
 impl Sampler for IndependentSampler {
     fn is_correlated(&self) -> bool {
-        false
+        KIND.read.is_correlated
     }
 
     #[inline]
@@ -65,3 +66,16 @@ fn value(bits: u64) -> f32 {
 fn point(bits: u64) -> Vec2 {
     Vec2::new(unit_float((bits >> 32) as u32), unit_float(bits as u32))
 }
+
+impl SamplerKind {
+    /// [`IndependentSampler`].
+    pub const INDEPENDENT: Self = Self(&KIND);
+}
+
+/// `type = "independent"`
+pub(super) const KIND: Kind<Make> = Kind {
+    name: "independent",
+    meaning: "Uniform random numbers",
+    keys: &[],
+    read: Make { is_correlated: false, make: |sets| Box::new(IndependentSampler::new(sets.seed)) },
+};

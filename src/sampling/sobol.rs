@@ -7,7 +7,8 @@ use super::owen::{
     BLOCK, scramble, shuffle_block, shuffle_within_block, unit_float_reversed as unit,
 };
 use super::sequence::{FIRST_PAIRS, pair};
-use super::{SampleId, Sampler};
+use super::{Make, SampleId, Sampler, SamplerKind};
+use crate::params::Kind;
 
 /// Owen-scrambled Sobol points: a progressive low-discrepancy sequence, evenly distributed at any
 /// number of samples.
@@ -96,7 +97,7 @@ impl SobolSampler {
 
 impl Sampler for SobolSampler {
     fn is_correlated(&self) -> bool {
-        true
+        KIND.read.is_correlated
     }
 
     #[inline]
@@ -206,3 +207,16 @@ impl Lanes {
         std::array::from_fn(|i| Vec2::new(unit(x[i]), unit(y[i])))
     }
 }
+
+impl SamplerKind {
+    /// [`SobolSampler`].
+    pub const SOBOL: Self = Self(&KIND);
+}
+
+/// `type = "sobol"`
+pub(super) const KIND: Kind<Make> = Kind {
+    name: "sobol",
+    meaning: "Owen-scrambled Sobol points",
+    keys: &[],
+    read: Make { is_correlated: true, make: |sets| Box::new(SobolSampler::new(sets.seed)) },
+};

@@ -3,8 +3,9 @@
 use glam::Vec2;
 
 use super::hash::{hash, mix, permute, unit_float};
-use super::{SampleId, Sampler};
+use super::{Make, SampleId, Sampler, SamplerKind};
 use crate::geometry::float::ONE_MINUS_EPSILON;
+use crate::params::Kind;
 
 /// Stratified (jittered) sampling: the unit square is cut into equal cells, and each sample of a
 /// set has its own cell (PBRT 3rd edition, section 7.3). Each pixel, set and dimension has its own
@@ -46,7 +47,7 @@ impl StratifiedSampler {
 
 impl Sampler for StratifiedSampler {
     fn is_correlated(&self) -> bool {
-        true
+        KIND.read.is_correlated
     }
 
     #[inline]
@@ -75,3 +76,19 @@ impl Sampler for StratifiedSampler {
 fn within(cell: u32, jitter: f32, cells: u32) -> f32 {
     ((cell as f32 + jitter) / cells as f32).min(ONE_MINUS_EPSILON)
 }
+
+impl SamplerKind {
+    /// [`StratifiedSampler`].
+    pub const STRATIFIED: Self = Self(&KIND);
+}
+
+/// `type = "stratified"`
+pub(super) const KIND: Kind<Make> = Kind {
+    name: "stratified",
+    meaning: "One jittered sample in each cell of a grid",
+    keys: &[],
+    read: Make {
+        is_correlated: true,
+        make: |sets| Box::new(StratifiedSampler::new(sets.samples_per_set, sets.seed)),
+    },
+};

@@ -85,7 +85,7 @@ impl SceneBuilder {
         self.add_shape(name.into(), mesh, Some(material.into()), Some(emission))
     }
 
-    pub(super) fn add_shape(
+    pub(crate) fn add_shape(
         mut self,
         name: String,
         mesh: TriangleMesh,

@@ -4,19 +4,16 @@
 //! in any view with any settings.
 
 mod builder;
-mod file;
 mod settings;
 mod view;
 
 use std::sync::Arc;
 
+pub use crate::sampling::SamplerKind;
 pub use builder::{SceneBuilder, SceneError};
-pub use file::{
-    LoadReport, LoadedScene, Place, Problem, SceneFileError, parse_scene, read_scene, read_settings,
-};
 pub use settings::{
-    Emission, FilmSettings, IntegratorSettings, LightStrategy, RenderSettings, SamplerKind,
-    SamplerSettings, SettingsError,
+    Emission, FilmSettings, IntegratorSettings, LightStrategy, RenderSettings, SamplerSettings,
+    SettingsError,
 };
 pub use view::{View, ViewError};
 
@@ -31,7 +28,7 @@ use crate::material::Material;
 use crate::shape::TriangleMesh;
 
 /// A checked scene, ready to be rendered: shapes, materials, lights, and the tree of all triangles. It is made by
-/// [`Scene::builder`], or read from a file by [`read_scene`].
+/// [`Scene::builder`], or read from a file by [`read_scene`](crate::scene_file::read_scene).
 ///
 /// ```
 /// use lobe::glam::Vec3;

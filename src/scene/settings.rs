@@ -4,6 +4,8 @@ use glam::UVec2;
 
 use crate::film::Filter;
 use crate::image::{Display, Window};
+use crate::params::{Choice, Key};
+use crate::sampling::SamplerKind;
 use crate::spectrum::Spectrum;
 
 /// The film's size and look.
@@ -31,15 +33,20 @@ impl FilmSettings {
     }
 }
 
-impl Default for FilmSettings {
+impl FilmSettings {
     /// 500 × 500 pixels, as in the chapter, shown by the sRGB curve.
+    pub const DEFAULT: Self = Self {
+        resolution: UVec2::splat(500),
+        crop: None,
+        display: Display::Srgb,
+        filter: Filter::Box,
+    };
+}
+
+impl Default for FilmSettings {
+    /// [`FilmSettings::DEFAULT`].
     fn default() -> Self {
-        Self {
-            resolution: UVec2::splat(500),
-            crop: None,
-            display: Display::Srgb,
-            filter: Filter::Box,
-        }
+        Self::DEFAULT
     }
 }
 
@@ -59,20 +66,6 @@ pub enum SettingsError {
     /// There is nothing to average.
     #[error("the sampler's spp is 0: it has to be at least 1")]
     NoSamples,
-}
-
-/// Which sampler.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum SamplerKind {
-    /// [`IndependentSampler`](crate::sampling::IndependentSampler).
-    Independent,
-    /// [`StratifiedSampler`](crate::sampling::StratifiedSampler).
-    Stratified,
-    /// [`SobolSampler`](crate::sampling::SobolSampler).
-    #[default]
-    Sobol,
-    /// [`BlueNoiseSampler`](crate::sampling::BlueNoiseSampler).
-    BlueNoise,
 }
 
 /// Which samples are taken.
@@ -104,7 +97,7 @@ impl SamplerSettings {
     /// How many independent sets the samples of a pixel are divided into, all of the same size: the largest
     /// divisor of `spp` that is not above `replicates`; one set if the samples are independent.
     pub fn sets(&self) -> u32 {
-        if self.kind == SamplerKind::Independent {
+        if !self.kind.is_correlated() {
             return 1;
         }
         let most = self.replicates.min(self.spp).clamp(1, Self::MOST_SETS);
@@ -112,10 +105,15 @@ impl SamplerSettings {
     }
 }
 
-impl Default for SamplerSettings {
+impl SamplerSettings {
     /// 64 Sobol samples in two sets.
+    pub const DEFAULT: Self = Self { kind: SamplerKind::SOBOL, spp: 64, seed: 0, replicates: 2 };
+}
+
+impl Default for SamplerSettings {
+    /// [`SamplerSettings::DEFAULT`].
     fn default() -> Self {
-        Self { kind: SamplerKind::Sobol, spp: 64, seed: 0, replicates: 2 }
+        Self::DEFAULT
     }
 }
 
@@ -169,6 +167,21 @@ pub enum LightStrategy {
     Light,
     /// From the surface alone. Lights without extent, which no ray hits by chance, are drawn from all the same.
     Bsdf,
+}
+
+impl Choice for LightStrategy {
+    const CHOICES: &'static [(&'static str, Self)] =
+        &[("auto", Self::Auto), ("mis", Self::Mis), ("light", Self::Light), ("bsdf", Self::Bsdf)];
+}
+
+impl LightStrategy {
+    /// The key by which integrators take one.
+    pub const KEY: Key<Self> = Key::new(
+        "strategy",
+        "how directions to lights are drawn: from the light, from the surface (bsdf), from both weighed against each \
+         other (mis), or by what suits each light (auto)",
+    )
+    .default(Self::Auto);
 }
 
 impl IntegratorSettings {

@@ -44,17 +44,6 @@ pub struct TriangleMesh {
 }
 
 impl TriangleMesh {
-    /// The parallelogram with these edges from a corner; its outside is where `edge_u` × `edge_v` points. Texture
-    /// coordinates u and v run from 0 to 1 along the edges.
-    pub fn parallelogram(corner: Vec3, edge_u: Vec3, edge_v: Vec3) -> Self {
-        Self {
-            positions: vec![corner, corner + edge_u, corner + edge_u + edge_v, corner + edge_v],
-            normals: Vec::new(),
-            uvs: vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y],
-            indices: vec![[0, 1, 2], [0, 2, 3]],
-        }
-    }
-
     /// The positions of a triangle's corners.
     ///
     /// # Panics

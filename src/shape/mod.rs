@@ -16,12 +16,20 @@
 //! ```
 
 mod check;
+mod kind;
 mod mesh;
 mod obj;
+mod rectangle;
 mod triangle;
 
 pub use check::MeshError;
+pub use kind::{Load, Read};
 pub use mesh::TriangleMesh;
 pub use obj::{ObjAttribute, ObjError, ObjMesh, ObjProblem, ObjReport, parse_obj, read_obj};
 pub(crate) use triangle::{FAR, triangle_normals};
 pub use triangle::{ShearedRay, TriangleHit, triangle_normal};
+
+use crate::params::Kind;
+
+/// All kinds of shapes.
+pub static SHAPES: &[Kind<Read>] = &[obj::KIND, rectangle::KIND];

@@ -1,7 +1,9 @@
 //! [`ConstantTexture`]: the same value everywhere.
 
-use super::Texture;
+use super::{AnyTexture, Read, Texture, TextureValue, Textures};
 use crate::interaction::SurfaceInteraction;
+use crate::params::{Fault, Key, Kind, Limits, Param, Table, Value};
+use crate::spectrum::Spectrum;
 
 /// The same value at every point. It needs no texture coordinates and no filtering.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,4 +27,46 @@ impl<T: Copy + Send + Sync> Texture<T> for ConstantTexture<T> {
     fn constant(&self) -> Option<T> {
         Some(self.value)
     }
+}
+
+/// A number or a colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Constant {
+    Number(f32),
+    Color(Spectrum),
+}
+
+impl Param for Constant {
+    fn from_value(value: &Value, limits: &Limits) -> Option<Self> {
+        let number = f32::from_value(value, limits).map(Self::Number);
+        number.or_else(|| Spectrum::from_value(value, limits).map(Self::Color))
+    }
+
+    fn to_value(&self) -> Option<Value> {
+        match self {
+            Self::Number(value) => value.to_value(),
+            Self::Color(value) => value.to_value(),
+        }
+    }
+
+    fn expected(_: &Limits) -> String {
+        "a number or [red, green, blue], all finite".into()
+    }
+
+    fn example(limits: &Limits) -> Self {
+        Self::Color(Spectrum::example(limits))
+    }
+}
+
+const VALUE: Key<Constant> = Key::new("value", "the number or the colour");
+
+/// `type = "constant"`
+pub(super) const KIND: Kind<Read> =
+    Kind { name: "constant", meaning: "The same value everywhere", keys: &[&VALUE], read };
+
+fn read(table: &Table, _: &Textures) -> Result<AnyTexture, Fault> {
+    Ok(match table.get(&VALUE)? {
+        Constant::Number(value) => AnyTexture::Number(value.everywhere()),
+        Constant::Color(value) => AnyTexture::Color(value.everywhere()),
+    })
 }

@@ -90,7 +90,7 @@ pub fn view(camera: &PerspectiveSettings, resolution: UVec2) -> View {
 /// Settings with so many independent samples.
 pub fn independent(spp: u32, integrator: IntegratorSettings) -> RenderSettings {
     let sampler =
-        SamplerSettings { kind: SamplerKind::Independent, spp, ..SamplerSettings::default() };
+        SamplerSettings { kind: SamplerKind::INDEPENDENT, spp, ..SamplerSettings::default() };
     RenderSettings { sampler, integrator }
 }
 

@@ -106,7 +106,7 @@ fn furnace(
         ..PerspectiveSettings::default()
     };
     let sampler =
-        SamplerSettings { kind: SamplerKind::Independent, spp: 64, ..SamplerSettings::default() };
+        SamplerSettings { kind: SamplerKind::INDEPENDENT, spp: 64, ..SamplerSettings::default() };
     let integrator = IntegratorSettings::Path { max_depth, roulette, strategy };
     let options = RenderOptions { layers: true, ..RenderOptions::default() };
     let rendered = render(

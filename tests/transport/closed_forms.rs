@@ -19,7 +19,7 @@ const STRATEGIES: [LightStrategy; 4] =
     [LightStrategy::Auto, LightStrategy::Mis, LightStrategy::Light, LightStrategy::Bsdf];
 
 fn independent(spp: u32, integrator: IntegratorSettings) -> RenderSettings {
-    let kind = SamplerKind::Independent;
+    let kind = SamplerKind::INDEPENDENT;
     let sampler = SamplerSettings { kind, spp, seed: 3, ..SamplerSettings::default() };
     RenderSettings { sampler, integrator }
 }
@@ -192,10 +192,10 @@ fn a_plane_under_a_polygon() {
     ] {
         let polygon: Vec<DVec3> = polygon.iter().map(|c| c.as_dvec3()).collect();
         for (strategy, kind) in [
-            (LightStrategy::Light, SamplerKind::Independent),
-            (LightStrategy::Bsdf, SamplerKind::Independent),
-            (LightStrategy::Mis, SamplerKind::Sobol),
-            (LightStrategy::Auto, SamplerKind::Stratified),
+            (LightStrategy::Light, SamplerKind::INDEPENDENT),
+            (LightStrategy::Bsdf, SamplerKind::INDEPENDENT),
+            (LightStrategy::Mis, SamplerKind::SOBOL),
+            (LightStrategy::Auto, SamplerKind::STRATIFIED),
         ] {
             let picture = under(mesh.clone(), strategy, kind);
             for (place, (band, variance)) in bands(&picture).into_iter().enumerate() {

@@ -19,10 +19,10 @@ fn the_claimed_error_is_the_true_one() {
         TriangleMesh::parallelogram(Vec3::new(-1.0, 2.0, -1.0), Vec3::X * 2.0, Vec3::Z * 2.0);
     let emission = Emission { radiance: Spectrum::splat(6.0), two_sided: false };
     for kind in [
-        SamplerKind::Independent,
-        SamplerKind::Stratified,
-        SamplerKind::Sobol,
-        SamplerKind::BlueNoise,
+        SamplerKind::INDEPENDENT,
+        SamplerKind::STRATIFIED,
+        SamplerKind::SOBOL,
+        SamplerKind::BLUE_NOISE,
     ] {
         for (spp, replicates) in [(16, 2), (64, 4)] {
             let estimates: Vec<_> = (0..SEEDS)

@@ -3,9 +3,10 @@
 use lobe::glam::{UVec2, Vec3};
 use lobe::light::{DistantLight, SkyLight};
 use lobe::scene::{
-    Emission, IntegratorSettings, LightStrategy, LoadedScene, SamplerKind, SamplerSettings, Scene,
-    read_scene,
+    Emission, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings, Scene,
 };
+use lobe::scene_file::read_scene;
+use lobe::scene_file::{LoadedScene, read_scene};
 use lobe::{
     MatteMaterial, PerspectiveSettings, PointLight, RenderOptions, RenderSettings, Spectrum,
     TriangleMesh, View, render,
@@ -100,10 +101,10 @@ fn scene(trial: u64) -> (Scene, View, RenderSettings) {
         mesh
     };
     let kinds = [
-        SamplerKind::Independent,
-        SamplerKind::Stratified,
-        SamplerKind::Sobol,
-        SamplerKind::BlueNoise,
+        SamplerKind::INDEPENDENT,
+        SamplerKind::STRATIFIED,
+        SamplerKind::SOBOL,
+        SamplerKind::BLUE_NOISE,
     ];
     let strategies =
         [LightStrategy::Auto, LightStrategy::Mis, LightStrategy::Light, LightStrategy::Bsdf];

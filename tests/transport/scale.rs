@@ -21,7 +21,7 @@ fn rendered(scale: f32, shift: f32, seed: u64) -> Picture {
         TriangleMesh::parallelogram(Vec3::new(-1.0, 2.0, -1.0), Vec3::X * 2.0, Vec3::Z * 2.0);
     let mut camera = chapter_camera();
     (camera.eye, camera.look_at) = (place(camera.eye), place(camera.look_at));
-    let sampler = SamplerSettings { kind: SamplerKind::Sobol, spp: 1024, seed, replicates: 64 };
+    let sampler = SamplerSettings { kind: SamplerKind::SOBOL, spp: 1024, seed, replicates: 64 };
     let scene = Scene::builder()
         .material("red", MatteMaterial::new([0.8, 0.1, 0.2]))
         .material("blue", MatteMaterial::new([0.2, 0.3, 0.9]))

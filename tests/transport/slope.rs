@@ -44,9 +44,9 @@ fn render(kind: SamplerKind, spp: u32, seed: u64) -> Vec<(f64, f64)> {
 /// Independent samples fall with -0.5, Sobol's by more.
 #[test]
 fn sobol_converges_faster_under_the_sky() {
-    let reference = render(SamplerKind::Sobol, 1 << 15, 999);
+    let reference = render(SamplerKind::SOBOL, 1 << 15, 999);
     let [independent, sobol] =
-        [SamplerKind::Independent, SamplerKind::Sobol].map(|kind| slope(kind, &reference));
+        [SamplerKind::INDEPENDENT, SamplerKind::SOBOL].map(|kind| slope(kind, &reference));
     println!("slopes: independent {independent:.3}, sobol {sobol:.3}");
     assert!((independent + 0.5).abs() < 0.03, "independent {independent}");
     assert!(sobol < -0.6, "sobol {sobol}");

@@ -3,13 +3,11 @@
 use std::error::Error;
 
 use clap::Args;
-use lobe::TriangleMesh;
 use lobe::film::Filter;
-use lobe::image::Display;
-use lobe::scene::{
-    IntegratorSettings, LightStrategy, LoadedScene, RenderSettings, SamplerKind, SamplerSettings,
-    View,
-};
+use lobe::params::Choice;
+use lobe::scene::{IntegratorSettings, RenderSettings, SamplerSettings, View};
+use lobe::scene_file::LoadedScene;
+use lobe::{TriangleMesh, integrator};
 
 use crate::scene::SceneArguments;
 use crate::summary::Summary;
@@ -76,59 +74,42 @@ fn memory(mesh: &TriangleMesh) -> usize {
 fn add_view(summary: &mut Summary, view: &View) {
     summary.add("camera", view.camera().describe());
     summary.add_film(view.film());
-    let display = match view.film().display {
-        Display::Srgb => "srgb",
-        Display::Exposure => "exposure",
-    };
-    summary.add("display", display);
+    summary.add("display", view.film().display.name());
     summary.add("filter", filter(view.film().filter));
 }
 
 /// A line each for sampler and integrator.
 fn add_settings(summary: &mut Summary, settings: &RenderSettings) {
     let SamplerSettings { kind, spp, seed, .. } = settings.sampler;
-    let kind = match kind {
-        SamplerKind::Independent => "independent",
-        SamplerKind::Stratified => "stratified",
-        SamplerKind::Sobol => "sobol",
-        SamplerKind::BlueNoise => "blue-noise",
-    };
     let sets = match settings.sampler.sets() {
         1 => String::new(),
         sets => format!(" in {sets} sets"),
     };
-    summary.add("sampler", format!("{kind}, {spp} samples per pixel{sets}, seed {seed}"));
+    summary.add("sampler", format!("{}, {spp} samples per pixel{sets}, seed {seed}", kind.name()));
     summary.add("integrator", integrator(&settings.integrator));
 }
 
 fn filter(filter: Filter) -> String {
+    let (name, radius) = (filter.name(), filter.radius());
     match filter {
-        Filter::Box => "box".into(),
-        Filter::Tent { radius } => format!("tent, radius {radius} pixels"),
-        Filter::Gaussian { radius, sigma } => {
-            format!("gaussian, radius {radius} pixels, sigma {sigma}")
-        }
-        Filter::BlackmanHarris { radius } => format!("blackman-harris, radius {radius} pixels"),
+        Filter::Box => name.into(),
+        Filter::Gaussian { sigma, .. } => format!("{name}, radius {radius} pixels, sigma {sigma}"),
+        _ => format!("{name}, radius {radius} pixels"),
     }
 }
 
 fn integrator(settings: &IntegratorSettings) -> String {
+    let name = integrator::name(settings);
     match *settings {
-        IntegratorSettings::Chapter { highlight: false } => "chapter".into(),
-        IntegratorSettings::Chapter { highlight: true } => "chapter with highlight".into(),
-        IntegratorSettings::Direct { strategy } => format!("direct, {}", name(strategy)),
+        IntegratorSettings::Chapter { highlight: false } => name.into(),
+        IntegratorSettings::Chapter { highlight: true } => format!("{name} with highlight"),
+        IntegratorSettings::Direct { strategy } => {
+            format!("{name}, strategy {}", strategy.name())
+        }
         IntegratorSettings::Path { max_depth, roulette, strategy } => {
             let roulette = if roulette { "roulette" } else { "no roulette" };
-            format!("path, up to {max_depth} reflections, {roulette}, {}", name(strategy))
+            let strategy = strategy.name();
+            format!("{name}, up to {max_depth} reflections, {roulette}, strategy {strategy}")
         }
-    }
-}
-
-fn name(strategy: LightStrategy) -> &'static str {
-    match strategy {
-        LightStrategy::Auto => "strategy auto",
-        LightStrategy::Mis => "strategy mis",
-        LightStrategy::Light => "strategy light",
-        LightStrategy::Bsdf => "strategy bsdf",
     }
 }

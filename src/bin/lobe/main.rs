@@ -2,6 +2,7 @@
 
 mod chart;
 mod compare;
+mod help;
 mod info;
 mod output;
 mod progress;
@@ -24,12 +25,14 @@ Examples:
   lobe compare a.exr reference.exr                      errors, FLIP, and whether noise explains them
   lobe chart scene.toml                                 what accuracy costs, by each method
   lobe chart --stability                                where methods fail
+  lobe help materials                                   kinds of materials, their keys and ranges
 
 `lobe help render` and so on have more of them.";
 
 /// Renders scenes of triangle meshes with PBRT's materials and reflection.
 #[derive(Parser)]
-#[command(version, after_help = EXAMPLES)]
+#[command(version, disable_help_subcommand = true)]
+#[command(after_help = format!("{EXAMPLES}\n\n{}", help::topics()))]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -41,6 +44,7 @@ enum Command {
     Info(info::Arguments),
     Compare(compare::Arguments),
     Chart(chart::Arguments),
+    Help(help::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -49,6 +53,7 @@ fn main() -> ExitCode {
         Command::Info(arguments) => info::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Chart(arguments) => chart::run(&arguments),
+        Command::Help(arguments) => help::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

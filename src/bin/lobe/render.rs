@@ -9,7 +9,7 @@ use clap::Args;
 use clap::value_parser;
 use lobe::image::Metadata;
 use lobe::render::Progress;
-use lobe::scene::LoadedScene;
+use lobe::scene_file::LoadedScene;
 use lobe::{RenderOptions, render};
 
 use crate::output::{Format, Output};

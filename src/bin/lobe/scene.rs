@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use lobe::scene::{LoadedScene, SceneFileError, read_scene};
+use lobe::scene_file::{LoadedScene, SceneFileError, read_scene};
 
 #[derive(Args)]
 pub struct SceneArguments {

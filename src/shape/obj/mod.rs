@@ -11,11 +11,13 @@ mod report;
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, ErrorKind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub use error::{ObjAttribute, ObjError, ObjProblem};
 pub use report::{ObjMesh, ObjReport};
 
+use super::kind::{Load, Read};
+use crate::params::{Fault, Key, Kind, Table};
 use attributes::Attributes;
 use feed::{Failure, Feed};
 
@@ -96,4 +98,15 @@ fn read(reader: impl BufRead) -> Result<ObjMesh, Failure> {
     let read = merge::merge(feed.faces, attributes).ok_or(Failure::TooMany("vertices"))?;
     debug_assert_eq!(read.mesh.check(), Ok(()));
     Ok(read)
+}
+
+const OBJ: Key<PathBuf> = Key::new("obj", "path of an OBJ file");
+
+/// `type = "obj"`
+pub(super) const KIND: Kind<Read> =
+    Kind { name: "obj", meaning: "The triangles of an OBJ file", keys: &[&OBJ], read: read_kind };
+
+fn read_kind(table: &Table) -> Result<Load, Fault> {
+    let (path, mark) = (table.get(&OBJ)?, table.mark(&OBJ));
+    Ok(Box::new(move || read_obj(&path).map_err(|error| Fault::new(mark, error))))
 }

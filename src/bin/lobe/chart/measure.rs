@@ -6,8 +6,9 @@ use lobe::RenderOptions;
 use lobe::image::Image;
 use lobe::metrics::convergence::{Bias, Curve, Method, Reference, Run, RunningMean};
 use lobe::scene::{
-    IntegratorSettings, LightStrategy, LoadedScene, RenderSettings, SamplerKind, SamplerSettings,
+    IntegratorSettings, LightStrategy, RenderSettings, SamplerKind, SamplerSettings,
 };
+use lobe::scene_file::LoadedScene;
 
 use super::folder::Folder;
 use super::methods::with_strategy;
@@ -170,8 +171,8 @@ impl<'a> Bench<'a> {
             Method::of_settings(&self.loaded.scene, &self.loaded.view, name, settings, self.options)
         };
         [
-            by("reference", SamplerKind::Sobol, LightStrategy::Mis),
-            by("check", SamplerKind::Independent, LightStrategy::Light),
+            by("reference", SamplerKind::SOBOL, LightStrategy::Mis),
+            by("check", SamplerKind::INDEPENDENT, LightStrategy::Light),
         ]
     }
 

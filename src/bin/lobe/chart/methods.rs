@@ -4,29 +4,17 @@ use std::error::Error;
 use std::fs;
 use std::path::Path;
 
+use lobe::params::Choice;
 use lobe::scene::{
-    IntegratorSettings, LightStrategy, RenderSettings, SamplerKind, SamplerSettings, read_settings,
+    IntegratorSettings, LightStrategy, RenderSettings, SamplerKind, SamplerSettings,
 };
+use lobe::scene_file::read_settings;
 use toml::de::{DeTable, DeValue};
 
 use crate::scene::SceneArguments;
 
 /// A method: name and settings.
 pub type Named = (String, RenderSettings);
-
-const SAMPLERS: [(SamplerKind, &str); 4] = [
-    (SamplerKind::Independent, "independent"),
-    (SamplerKind::Stratified, "stratified"),
-    (SamplerKind::Sobol, "sobol"),
-    (SamplerKind::BlueNoise, "blue-noise"),
-];
-
-const STRATEGIES: [(LightStrategy, &str); 4] = [
-    (LightStrategy::Auto, "auto"),
-    (LightStrategy::Mis, "mis"),
-    (LightStrategy::Light, "light"),
-    (LightStrategy::Bsdf, "bsdf"),
-];
 
 /// Each sampler with the scene's integrator; and with Sobol points each other light strategy, and roulette switched.
 pub fn usual(settings: RenderSettings) -> Vec<Named> {
@@ -35,19 +23,20 @@ pub fn usual(settings: RenderSettings) -> Vec<Named> {
         sampler: SamplerSettings { kind, ..sampler },
         integrator,
     };
-    let mut all: Vec<Named> =
-        SAMPLERS.map(|(kind, name)| (name.to_owned(), with(kind, integrator))).into();
-    let sobol = |integrator| with(SamplerKind::Sobol, integrator);
-    for (other, name) in STRATEGIES {
+    let of_kind = |kind: SamplerKind| (kind.name().to_owned(), with(kind, integrator));
+    let mut all: Vec<Named> = SamplerKind::all().map(of_kind).collect();
+    let sobol = |integrator| with(SamplerKind::SOBOL, integrator);
+    let name = SamplerKind::SOBOL.name();
+    for (other, strategy) in LightStrategy::CHOICES.iter().map(|&(name, other)| (other, name)) {
         let changed = with_strategy(integrator, other);
         if changed != integrator {
-            all.push((format!("sobol, {name}"), sobol(changed)));
+            all.push((format!("{name}, {strategy}"), sobol(changed)));
         }
     }
     if let IntegratorSettings::Path { max_depth, roulette, strategy } = integrator {
-        let name = if roulette { "sobol, no roulette" } else { "sobol, roulette" };
+        let roulette_is = if roulette { "no roulette" } else { "roulette" };
         let changed = IntegratorSettings::Path { max_depth, roulette: !roulette, strategy };
-        all.push((name.into(), sobol(changed)));
+        all.push((format!("{name}, {roulette_is}"), sobol(changed)));
     }
     all
 }

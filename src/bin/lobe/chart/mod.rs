@@ -18,7 +18,7 @@ use clap::{ArgGroup, Args, value_parser};
 use lobe::image::{Encoding, Image};
 use lobe::metrics::Errors;
 use lobe::metrics::convergence::{Method, Other};
-use lobe::scene::read_settings;
+use lobe::scene_file::read_settings;
 use lobe::{RenderOptions, Spectrum};
 
 use crate::scene::SceneArguments;

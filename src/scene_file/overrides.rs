@@ -1,37 +1,35 @@
 //! Overrides: `KEY=VALUE` in TOML, laid over a scene file.
 
-use super::document::{Fault, parse};
-use super::error::Problem;
-use super::hint::hint;
-use super::tree::{Mark, Node, Value};
-
-/// The tables whose keys are names that the user gives.
-pub const NAMED: [&str; 4] = ["texture", "material", "light", "shape"];
+use super::document::parse;
+use super::error::TextProblem;
+use super::sections::SECTIONS;
+use crate::params::{Fault, Mark, Node, Problem, Value};
 
 /// Replaces or adds the value that `text`, number `source`, gives to a key.
 ///
 /// A key that is new to the file may be one with a default: whether it is known is left to those who
 /// read the tree. But what has a name of the user's must be there.
 pub fn apply(root: &mut Node, text: &str, source: usize) -> Result<(), Fault> {
-    let fault = |problem| Fault { mark: Mark { source, offset: 0 }, problem };
+    let mark = Mark { source, offset: 0 };
+    let fault = |problem| Fault::new(mark, problem);
     let Some((key, value)) = text.split_once('=') else {
-        return Err(fault(Problem::NoAssignment));
+        return Err(fault(TextProblem::NoAssignment));
     };
     let new = parse(text, source).map_err(|error| quoted(key, value).map_or(error, fault))?;
     if !has_leaf(&new) {
-        return Err(fault(Problem::NoAssignment));
+        return Err(fault(TextProblem::NoAssignment));
     }
     for (kind, node) in new.entries().iter().map(|entry| (&entry.key, &entry.node)) {
-        if NAMED.contains(&kind.as_str()) {
+        if SECTIONS.iter().any(|section| section.is_named() && section.key() == kind) {
             let known = || root.get(kind).map_or(&[][..], Node::entries).iter();
             let unknown =
                 node.entries().iter().find(|entry| known().all(|known| known.key != entry.key));
             if let Some(entry) = unknown {
-                return Err(fault(Problem::UnknownName {
-                    kind: kind.clone(),
-                    name: entry.key.escape_debug().to_string(),
-                    hint: hint(&entry.key, known().map(|known| known.key.as_str())),
-                }));
+                let known = known().map(|known| known.key.as_str());
+                return Err(Fault {
+                    mark,
+                    problem: Problem::unknown_name(kind, &entry.key, known),
+                });
             }
         }
     }
@@ -40,10 +38,10 @@ pub fn apply(root: &mut Node, text: &str, source: usize) -> Result<(), Fault> {
 }
 
 /// A bare word as a value is what a shell leaves of a text in quotes: show how to write it.
-fn quoted(key: &str, value: &str) -> Option<Problem> {
+fn quoted(key: &str, value: &str) -> Option<TextProblem> {
     let is_word = value.starts_with(|c: char| c.is_alphabetic() || "./~_".contains(c));
     let quoted = format!("{key}=\"{value}\"");
-    (is_word && parse(&quoted, 0).is_ok()).then_some(Problem::Unquoted(quoted))
+    (is_word && parse(&quoted, 0).is_ok()).then_some(TextProblem::Unquoted(quoted))
 }
 
 fn has_leaf(node: &Node) -> bool {

@@ -4,8 +4,7 @@ use std::fmt::{self, Display, Formatter};
 use std::io;
 use std::path::PathBuf;
 
-use crate::scene::{SceneError, SettingsError, ViewError};
-use crate::shape::ObjError;
+use crate::params::Problem;
 
 /// Why a scene file gives no scene. Each message is one sentence that begins with the place:
 /// ``scene.toml:3:1: unknown key `fvo` in [camera]; did you mean `fov`?``
@@ -68,11 +67,10 @@ impl Display for Place {
     }
 }
 
-/// What is wrong at a place of a scene file. A `hint` is the nearest known name, or all known ones,
-/// or empty.
-#[derive(Debug, thiserror::Error)]
+/// What is wrong with the text of a scene file or of an override; found in [`Problem::Other`].
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
-pub enum Problem {
+pub enum TextProblem {
     /// The text is not TOML.
     #[error("not valid TOML: {0}")]
     Toml(String),
@@ -82,56 +80,4 @@ pub enum Problem {
     /// The value of an override is a bare word.
     #[error("text as a value stands in quotes: --set '{0}'")]
     Unquoted(String),
-    /// Nothing has this name.
-    #[error("unknown key `{key}` in {table}{hint}")]
-    UnknownKey {
-        /// The name.
-        key: String,
-        /// Where it was looked for.
-        table: String,
-        /// What it may have been meant to be.
-        hint: String,
-    },
-    /// Something refers to what is not there.
-    #[error("the scene has no {kind} `{name}`{hint}")]
-    UnknownName {
-        /// "texture", "material", ...
-        kind: String,
-        /// The name.
-        name: String,
-        /// What it may have been meant to be.
-        hint: String,
-    },
-    /// A key without a default is left out.
-    #[error("{table} lacks `{key}`, expected {expected}")]
-    MissingKey {
-        /// Where it should stand.
-        table: String,
-        /// Its name.
-        key: &'static str,
-        /// What it should hold.
-        expected: String,
-    },
-    /// A value of the wrong type or out of range.
-    #[error("`{key}` is {found}, expected {expected}")]
-    Value {
-        /// The full name of its key.
-        key: String,
-        /// The value, shortened if it is long.
-        found: String,
-        /// What it should be.
-        expected: String,
-    },
-    /// Each value is fine by itself, but they make no scene.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// Each value is fine by itself, but they make no view.
-    #[error(transparent)]
-    View(#[from] ViewError),
-    /// The scene cannot be sampled or lit like this.
-    #[error(transparent)]
-    Settings(#[from] SettingsError),
-    /// A mesh cannot be read.
-    #[error(transparent)]
-    Obj(#[from] ObjError),
 }

@@ -1,0 +1,198 @@
+//! [`Table`]: one table of a document, read key by key, and [`Document`].
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+
+use super::error::{Fault, Problem};
+use super::hint::hint;
+use super::key::{AnyKey, Key};
+use super::param::Param;
+use super::tree::{Entry, Mark, Node, Value};
+
+/// A tree of values, and for each of its sources the folder that paths in it are relative to.
+#[derive(Clone, Debug)]
+pub struct Document {
+    /// The table that holds all others.
+    pub root: Node,
+    /// By [`Mark::source`]; a source without one counts from the current directory.
+    pub folders: Vec<PathBuf>,
+}
+
+/// A table, or what stands for one that the document leaves out. It knows which keys may be read, and notes which of
+/// them were.
+pub struct Table<'a> {
+    /// Its full name; empty for the root.
+    name: String,
+    /// What messages call it.
+    title: String,
+    node: &'a Node,
+    document: &'a Document,
+    keys: Vec<&'static str>,
+    read: RefCell<Vec<&'static str>>,
+}
+
+/// What stands for a table that is left out.
+static EMPTY: Node = Node { mark: Mark { source: 0, offset: 0 }, value: Value::Table(Vec::new()) };
+
+impl Document {
+    /// A tree whose paths are relative to the current directory.
+    pub fn new(root: Node) -> Self {
+        Self { root, folders: Vec::new() }
+    }
+
+    /// The root, which may hold the tables `keys` and nothing else. Messages call it `title`.
+    ///
+    /// # Errors
+    /// The first other key.
+    pub fn table(&self, title: &str, keys: &[&'static str]) -> Result<Table<'_>, Fault> {
+        let table = Table::new(self, String::new(), title.into(), &self.root);
+        let table = Table { keys: keys.to_vec(), ..table };
+        table.refuse_unknown().map(|()| table)
+    }
+}
+
+impl<'a> Table<'a> {
+    fn new(document: &'a Document, name: String, title: String, node: &'a Node) -> Self {
+        Self { name, title, node, document, keys: Vec::new(), read: RefCell::default() }
+    }
+
+    /// The table of that name, empty if there is none.
+    ///
+    /// # Errors
+    /// If it is not a table.
+    pub fn table(&self, key: &str) -> Result<Self, Fault> {
+        self.enter(key, self.node.get(key).unwrap_or(&EMPTY))
+    }
+
+    /// All tables in the table of that name, each with its name, in the order of the document.
+    ///
+    /// # Errors
+    /// What is not a table.
+    pub fn tables(&self, key: &str) -> Result<Vec<(&'a str, Self)>, Fault> {
+        let table = self.table(key)?;
+        let enter = |entry: &'a Entry| Ok((&*entry.key, table.enter(&entry.key, &entry.node)?));
+        table.node.entries().iter().map(enter).collect()
+    }
+
+    fn enter(&self, key: &str, node: &'a Node) -> Result<Self, Fault> {
+        let name = full_name(&self.name, key);
+        match node.value {
+            Value::Table(_) => {
+                Ok(Self::new(self.document, name.clone(), format!("[{name}]"), node))
+            }
+            _ => Err(self.wrong(key, node, node.value.to_string(), "a table".into())),
+        }
+    }
+
+    /// The same table, in which `selector` and `keys` may stand and nothing else.
+    pub(super) fn with_keys(
+        mut self,
+        selector: &'static str,
+        keys: impl Iterator<Item = &'static str>,
+    ) -> Result<Self, Fault> {
+        self.keys = [selector].into_iter().chain(keys).collect();
+        self.read = RefCell::new(vec![selector]);
+        // Which keys there are depends on the type, where a table has one.
+        if let Some(kind) = self.node.get("type") {
+            self.title = format!("{} of type {}", self.title, kind.value);
+        }
+        self.refuse_unknown()?;
+        self.title = format!("[{}]", self.name);
+        Ok(self)
+    }
+
+    fn refuse_unknown(&self) -> Result<(), Fault> {
+        let is_unknown = |entry: &&Entry| self.keys.iter().all(|key| *key != entry.key);
+        let unknown = self.node.entries().iter().find(is_unknown);
+        unknown.map_or(Ok(()), |Entry { key, mark, .. }| {
+            let hint = hint(key, self.keys.iter().copied());
+            let (key, table) = (key.escape_debug().to_string(), self.title.clone());
+            Err(Fault { mark: *mark, problem: Problem::UnknownKey { key, table, hint } })
+        })
+    }
+
+    /// The value of a key, or its default.
+    ///
+    /// # Errors
+    /// If it has another type, is out of range, or is missing and has no default; or if the table's kind does not
+    /// declare the key.
+    pub fn get<T: Param>(&self, key: &Key<T>) -> Result<T, Fault> {
+        let Some(node) = self.value(key)? else {
+            return key.get_default().cloned().ok_or_else(|| self.missing(key));
+        };
+        let folder = self.document.folders.get(node.mark.source);
+        match T::from_value(&node.value, key.limits()) {
+            Some(value) => Ok(value.placed(folder.map_or(Path::new(""), |folder| folder))),
+            None => Err(self.unfit(key, node, node.value.to_string(), key.expected())),
+        }
+    }
+
+    /// The value of a key as it stands, for types that are not read by [`Table::get`].
+    ///
+    /// # Errors
+    /// If the table's kind does not declare the key.
+    pub fn value(&self, key: &dyn AnyKey) -> Result<Option<&'a Node>, Fault> {
+        let key = key.name();
+        if !self.keys.contains(&key) {
+            let problem = Problem::Undeclared { key, table: self.title.clone() };
+            return Err(Fault { mark: self.node.mark, problem });
+        }
+        self.read.borrow_mut().push(key);
+        Ok(self.node.get(key))
+    }
+
+    /// Refuses keys that may stand in the table but were not read: those that mean nothing beside the others.
+    pub(super) fn finish(&self) -> Result<(), Fault> {
+        let read = self.read.borrow();
+        let is_unread = |entry: &&Entry| read.iter().all(|key| *key != entry.key);
+        let unread = self.node.entries().iter().find(is_unread);
+        unread.map_or(Ok(()), |Entry { key, mark, .. }| {
+            let key = full_name(&self.name, key);
+            Err(Fault { mark: *mark, problem: Problem::Unused { key } })
+        })
+    }
+
+    /// Where the value of a key stands, or else the table.
+    pub fn mark(&self, key: &dyn AnyKey) -> Mark {
+        self.node.follow(&[key.name()]).mark
+    }
+
+    /// That a key has to be there.
+    pub fn missing(&self, key: &dyn AnyKey) -> Fault {
+        self.lacks(key.name(), key.expected())
+    }
+
+    /// That the value `found` of a key, which stands at `node`, is not as expected.
+    pub fn unfit(&self, key: &dyn AnyKey, node: &Node, found: String, expected: String) -> Fault {
+        self.wrong(key.name(), node, found, expected)
+    }
+
+    pub(super) fn node(&self) -> &'a Node {
+        self.node
+    }
+
+    pub(super) fn lacks(&self, key: &'static str, expected: String) -> Fault {
+        let problem = Problem::MissingKey { table: self.title.clone(), key, expected };
+        Fault { mark: self.node.mark, problem }
+    }
+
+    pub(super) fn wrong(&self, key: &str, node: &Node, found: String, expected: String) -> Fault {
+        let mut found = found;
+        if found.chars().count() > 60 {
+            found = found.chars().take(59).chain(['…']).collect();
+        }
+        let key = full_name(&self.name, key);
+        Fault { mark: node.mark, problem: Problem::Value { key, found, expected } }
+    }
+}
+
+/// The name of a key with that of its table, as it could stand in a file.
+fn full_name(table: &str, key: &str) -> String {
+    let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    let dot = if table.is_empty() { "" } else { "." };
+    if !key.is_empty() && key.chars().all(is_bare) {
+        format!("{table}{dot}{key}")
+    } else {
+        format!("{table}{dot}{key:?}")
+    }
+}

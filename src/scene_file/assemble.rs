@@ -1,0 +1,166 @@
+//! From a document to a scene.
+
+use std::sync::Arc;
+
+use glam::{Affine3A, Quat, UVec2};
+
+use super::sections::{self, SECTIONS};
+use crate::camera::CameraSettings;
+use crate::film::Window;
+use crate::light::Light;
+use crate::material::Material;
+use crate::params::{Document, Fault, Mark, Problem, Table};
+use crate::sampling::SamplerKind;
+use crate::scene::{
+    Emission, FilmSettings, IntegratorSettings, SamplerSettings, Scene, SceneBuilder, SceneError,
+};
+use crate::shape::{Load, ObjMesh, ObjReport};
+use crate::texture::Textures;
+
+/// A scene before its meshes are read. Lists are in the order of the file.
+pub struct Description {
+    camera: CameraSettings,
+    film: FilmSettings,
+    pub sampler: SamplerSettings,
+    pub integrator: IntegratorSettings,
+    materials: Vec<(String, Arc<dyn Material>)>,
+    lights: Vec<Arc<dyn Light>>,
+    shapes: Vec<(String, Shape)>,
+}
+
+struct Shape {
+    load: Load,
+    /// The name of its material with its place; none for a light that reflects nothing.
+    material: Option<(String, Mark)>,
+    emission: Option<Emission>,
+    /// From the mesh to the world.
+    transform: Affine3A,
+}
+
+/// Reads all tables. No file is read.
+pub fn describe(document: &Document) -> Result<Description, Fault> {
+    let root = document.table("the scene", &SECTIONS.map(|section| section.key()))?;
+    let film = film(root.table(sections::FILM.key)?)?;
+    let camera = root.table(sections::CAMERA.key)?;
+    let camera =
+        sections::CAMERA.read(camera, |kind, table| (kind.read)(table, film.resolution))?;
+    let integrator = root.table(sections::INTEGRATOR.key)?;
+    let integrator = sections::INTEGRATOR.read(integrator, |kind, table| (kind.read)(table))?;
+    let mut textures = Textures::default();
+    for (name, table) in root.tables(sections::TEXTURE.key)? {
+        let texture = sections::TEXTURE.read(table, |kind, table| (kind.read)(table, &textures))?;
+        textures.add(name, texture);
+    }
+    let material = |(name, table): (&str, Table)| {
+        let material =
+            sections::MATERIAL.read(table, |kind, table| (kind.read)(table, &textures))?;
+        Ok((name.to_owned(), material))
+    };
+    let light =
+        |(_, table): (&str, Table)| sections::LIGHT.read(table, |kind, table| (kind.read)(table));
+    let shape = |(name, table): (&str, Table)| Ok((name.to_owned(), shape(table)?));
+    Ok(Description {
+        camera,
+        film,
+        sampler: sampler(root.table(sections::SAMPLER.key)?)?,
+        integrator,
+        materials: all(root.tables(sections::MATERIAL.key)?, material)?,
+        lights: all(root.tables(sections::LIGHT.key)?, light)?,
+        shapes: all(root.tables(sections::SHAPE.key)?, shape)?,
+    })
+}
+
+fn all<T, U>(tables: Vec<T>, read: impl FnMut(T) -> Result<U, Fault>) -> Result<Vec<U>, Fault> {
+    tables.into_iter().map(read).collect()
+}
+
+fn film(table: Table) -> Result<FilmSettings, Fault> {
+    let window =
+        |[x0, y0, x1, y1]: [u32; 4]| Window { min: UVec2::new(x0, y0), max: UVec2::new(x1, y1) };
+    sections::FILM.read(table, |kind, table| {
+        Ok(FilmSettings {
+            resolution: table.get(&sections::RESOLUTION)?,
+            crop: table.get(&sections::CROP)?.map(window),
+            display: table.get(&sections::DISPLAY)?,
+            filter: (kind.read)(table)?,
+        })
+    })
+}
+
+fn sampler(table: Table) -> Result<SamplerSettings, Fault> {
+    sections::SAMPLER.read(table, |kind, table| {
+        Ok(SamplerSettings {
+            kind: SamplerKind(kind),
+            spp: table.get(&sections::SPP)?,
+            seed: table.get(&sections::SEED)?,
+            replicates: table.get(&sections::REPLICATES)?,
+        })
+    })
+}
+
+fn shape(table: Table) -> Result<Shape, Fault> {
+    sections::SHAPE.read(table, |kind, table| {
+        let emission = match table.get(&sections::EMISSION)? {
+            Some(radiance) => {
+                Some(Emission { radiance, two_sided: table.get(&sections::TWO_SIDED)? })
+            }
+            None => None,
+        };
+        let scale = table.get(&sections::SCALE)?.0;
+        let rotation = table.get(&sections::ROTATE)?.map_or(Quat::IDENTITY, Quat::from);
+        let translation = table.get(&sections::TRANSLATE)?;
+        let load = (kind.read)(table)?;
+        let material = table.get(&sections::SHAPE_MATERIAL)?;
+        if material.is_none() && emission.is_none() {
+            return Err(table.missing(&sections::SHAPE_MATERIAL));
+        }
+        let mark = table.mark(&sections::SHAPE_MATERIAL);
+        Ok(Shape {
+            load,
+            material: material.map(|material| (material, mark)),
+            emission,
+            // Scaled first, moved last.
+            transform: Affine3A::from_scale_rotation_translation(scale, rotation, translation),
+        })
+    })
+}
+
+/// Looks up materials, reads the meshes and builds the scene. The settings are checked before the meshes are read,
+/// which may take long.
+pub fn build(
+    description: Description,
+    document: &Document,
+) -> Result<(Scene, Vec<ObjReport>), Fault> {
+    let Description { camera, film, sampler, integrator, materials, lights, shapes } = description;
+    let fault = |error: SceneError| {
+        let keys = match &error {
+            SceneError::Mesh(shape, _) => vec![sections::SHAPE.key, shape],
+            SceneError::TooManyTriangles(_) => vec![sections::SHAPE.key],
+            // What only the settings together can do wrong.
+            _ => vec![sections::FILM.key, sections::CROP.name()],
+        };
+        Fault::new(document.root.follow(&keys).mark, error)
+    };
+    let settings =
+        Scene::builder().camera(camera).film(film).sampler(sampler).integrator(integrator);
+    settings.check().map_err(fault)?;
+    for (material, mark) in shapes.iter().filter_map(|(_, shape)| shape.material.as_ref()) {
+        if materials.iter().all(|(known, _)| known != material) {
+            let known = materials.iter().map(|(known, _)| known.as_str());
+            let problem = Problem::unknown_name(sections::MATERIAL.key, material, known);
+            return Err(Fault { mark: *mark, problem });
+        }
+    }
+    let builder = lights.into_iter().fold(settings, SceneBuilder::shared_light);
+    let mut builder = materials
+        .into_iter()
+        .fold(builder, |builder, (name, material)| builder.shared_material(name, material));
+    let mut reports = Vec::with_capacity(shapes.len());
+    for (name, Shape { load, material, emission, transform }) in shapes {
+        let ObjMesh { mut mesh, report } = load()?;
+        reports.push(report);
+        mesh.transform(&transform);
+        builder = builder.add_shape(name, mesh, material.map(|(name, _)| name), emission);
+    }
+    Ok((builder.build().map_err(fault)?, reports))
+}

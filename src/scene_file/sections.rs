@@ -1,0 +1,135 @@
+//! The tables of a scene file: which registry reads each, and what all of its kinds have in common.
+
+use glam::{UVec2, Vec3};
+
+use crate::camera::{CAMERAS, ReadCamera};
+use crate::film::{Display, FILTERS, ReadFilter};
+use crate::integrator::{self, INTEGRATORS};
+use crate::light::{self, LIGHTS};
+use crate::material::{self, MATERIALS};
+use crate::params::{AnySection, Key, Rotation, Scale, Section};
+use crate::sampling::{Make, SAMPLERS};
+use crate::scene::{FilmSettings, SamplerSettings};
+use crate::shape::{self, SHAPES};
+use crate::spectrum::Spectrum;
+use crate::texture::{self, TEXTURES};
+
+/// All tables, in the order in which they are documented.
+pub static SECTIONS: [&dyn AnySection; 8] =
+    [&CAMERA, &FILM, &SAMPLER, &INTEGRATOR, &TEXTURE, &MATERIAL, &LIGHT, &SHAPE];
+
+pub static CAMERA: Section<ReadCamera> = Section {
+    key: "camera",
+    plural: "cameras",
+    is_named: false,
+    selector: "type",
+    default: Some(CAMERAS[0].name),
+    common: &[],
+    kinds: CAMERAS,
+};
+
+pub const RESOLUTION: Key<UVec2> = Key::new("resolution", "columns and rows of the image")
+    .at_least(1.0)
+    .default(FilmSettings::DEFAULT.resolution);
+pub const CROP: Key<Option<[u32; 4]>> = Key::optional(
+    "crop",
+    "the part to render, [x0, y0, x1, y1] without column x1 and row y1; all of the image without it",
+);
+pub const DISPLAY: Key<Display> =
+    Key::new("display", "the curve of a PNG: sRGB's, or 1 - exp(-4 L)")
+        .default(FilmSettings::DEFAULT.display);
+
+pub static FILM: Section<ReadFilter> = Section {
+    key: "film",
+    plural: "filters",
+    is_named: false,
+    selector: "filter",
+    default: Some(FILTERS[0].name),
+    common: &[&RESOLUTION, &CROP, &DISPLAY],
+    kinds: FILTERS,
+};
+
+pub const SPP: Key<u32> =
+    Key::new("spp", "samples per pixel").at_least(1.0).default(SamplerSettings::DEFAULT.spp);
+pub const SEED: Key<u64> =
+    Key::new("seed", "each gives other samples").default(SamplerSettings::DEFAULT.seed);
+pub const REPLICATES: Key<u32> = Key::new(
+    "replicates",
+    "independent sets to tell the error from, of all samplers but \"independent\"; of them the largest number that \
+     divides spp",
+)
+.default(SamplerSettings::DEFAULT.replicates);
+
+pub static SAMPLER: Section<Make> = Section {
+    key: "sampler",
+    plural: "samplers",
+    is_named: false,
+    selector: "type",
+    default: Some(SamplerSettings::DEFAULT.kind.name()),
+    common: &[&SPP, &SEED, &REPLICATES],
+    kinds: SAMPLERS,
+};
+
+pub static INTEGRATOR: Section<integrator::Read> = Section {
+    key: "integrator",
+    plural: "integrators",
+    is_named: false,
+    selector: "type",
+    default: Some(INTEGRATORS[0].name),
+    common: &[],
+    kinds: INTEGRATORS,
+};
+
+pub static TEXTURE: Section<texture::Read> = Section {
+    key: "texture",
+    plural: "textures",
+    is_named: true,
+    selector: "type",
+    default: None,
+    common: &[],
+    kinds: TEXTURES,
+};
+
+pub static MATERIAL: Section<material::Read> = Section {
+    key: "material",
+    plural: "materials",
+    is_named: true,
+    selector: "type",
+    default: None,
+    common: &[],
+    kinds: MATERIALS,
+};
+
+pub static LIGHT: Section<light::Read> = Section {
+    key: "light",
+    plural: "lights",
+    is_named: true,
+    selector: "type",
+    default: None,
+    common: &[],
+    kinds: LIGHTS,
+};
+
+pub const SHAPE_MATERIAL: Key<Option<String>> = Key::optional(
+    MATERIAL.key,
+    "name of its material; required unless it emits, and then it reflects nothing without one",
+);
+pub const EMISSION: Key<Option<Spectrum>> =
+    Key::optional("emission", "radiance that it sends out, in W / (m² sr)").at_least(0.0);
+pub const TWO_SIDED: Key<bool> =
+    Key::new("two_sided", "whether it emits on both sides, or outside alone").default(false);
+pub const SCALE: Key<Scale> =
+    Key::new("scale", "one factor, or those along x, y and z").default(Scale(Vec3::ONE));
+pub const ROTATE: Key<Option<Rotation>> =
+    Key::optional("rotate", "about an axis through the origin; about +z from x to y");
+pub const TRANSLATE: Key<Vec3> = Key::new("translate", "in scene units").default(Vec3::ZERO);
+
+pub static SHAPE: Section<shape::Read> = Section {
+    key: "shape",
+    plural: "shapes",
+    is_named: true,
+    selector: "type",
+    default: Some(SHAPES[0].name),
+    common: &[&SHAPE_MATERIAL, &EMISSION, &TWO_SIDED, &SCALE, &ROTATE, &TRANSLATE],
+    kinds: SHAPES,
+};

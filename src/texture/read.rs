@@ -1,0 +1,173 @@
+//! [`TextureKey`] and [`Textures`]: how materials of scene files name their textures.
+
+use super::TextureHandle;
+use crate::params::{AnyKey, Fault, Key, Param, Problem, Table, Value};
+use crate::spectrum::Spectrum;
+
+/// How a kind of texture is read. It may use textures that stand above it.
+pub type Read = fn(&Table, &Textures) -> Result<AnyTexture, Fault>;
+
+/// A texture of any value.
+#[derive(Clone)]
+pub enum AnyTexture {
+    /// Of numbers.
+    Number(TextureHandle<f32>),
+    /// Of colours.
+    Color(TextureHandle<Spectrum>),
+}
+
+/// A type that a texture can have as its value.
+pub trait TextureValue: Param + Copy {
+    /// The texture, if it has this value.
+    fn of(texture: &AnyTexture) -> Option<&TextureHandle<Self>>;
+
+    /// The texture that has this value everywhere.
+    fn everywhere(self) -> TextureHandle<Self>;
+}
+
+impl TextureValue for f32 {
+    fn of(texture: &AnyTexture) -> Option<&TextureHandle<Self>> {
+        if let AnyTexture::Number(texture) = texture { Some(texture) } else { None }
+    }
+
+    fn everywhere(self) -> TextureHandle<Self> {
+        self.into()
+    }
+}
+
+impl TextureValue for Spectrum {
+    fn of(texture: &AnyTexture) -> Option<&TextureHandle<Self>> {
+        if let AnyTexture::Color(texture) = texture { Some(texture) } else { None }
+    }
+
+    fn everywhere(self) -> TextureHandle<Self> {
+        self.into()
+    }
+}
+
+/// A key whose value is the name of a texture, or a constant in its place. Range and default are the constant's.
+///
+/// ```
+/// use lobe::params::Key;
+/// use lobe::texture::TextureKey;
+///
+/// const SIGMA: TextureKey<f32> =
+///     TextureKey::of(Key::new("sigma", "roughness").in_unit("degrees").range(0.0..=90.0).default(0.0));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct TextureKey<T>(Key<T>);
+
+impl<T> TextureKey<T> {
+    /// A key for textures with values of this key.
+    pub const fn of(key: Key<T>) -> Self {
+        Self(key)
+    }
+}
+
+impl<T: Param> AnyKey for TextureKey<T> {
+    fn name(&self) -> &'static str {
+        self.0.name()
+    }
+
+    fn meaning(&self) -> &'static str {
+        self.0.meaning()
+    }
+
+    fn expected(&self) -> String {
+        format!("a texture's name or {}", self.0.expected())
+    }
+
+    fn default_text(&self) -> Option<String> {
+        self.0.default_text()
+    }
+
+    fn example(&self) -> String {
+        self.0.example()
+    }
+
+    fn accepts(&self, value: &Value) -> bool {
+        matches!(value, Value::Text(_)) || self.0.accepts(value)
+    }
+}
+
+/// The textures of a scene by their names.
+#[derive(Clone, Default)]
+pub struct Textures(Vec<(String, AnyTexture)>);
+
+impl Textures {
+    /// Adds a texture.
+    pub fn add(&mut self, name: impl Into<String>, texture: AnyTexture) {
+        self.0.push((name.into(), texture));
+    }
+
+    /// The texture that a key names, or the constant in its place.
+    ///
+    /// # Errors
+    /// If there is no texture of that name, if it has values of another type, or if a constant is out of range; or
+    /// as for [`Table::get`].
+    pub fn get<T: TextureValue>(
+        &self,
+        table: &Table,
+        key: &TextureKey<T>,
+    ) -> Result<TextureHandle<T>, Fault> {
+        match self.named(table, key, &key.0)? {
+            Some(texture) => Ok(texture),
+            None => table.get(&key.0).map(T::everywhere),
+        }
+    }
+
+    /// The same for a key that may be left out.
+    ///
+    /// # Errors
+    /// As for [`Textures::get`].
+    pub fn find<T: TextureValue>(
+        &self,
+        table: &Table,
+        key: &TextureKey<Option<T>>,
+    ) -> Result<Option<TextureHandle<T>>, Fault> {
+        match self.named(table, key, &key.0)? {
+            Some(texture) => Ok(Some(texture)),
+            None => Ok(table.get(&key.0)?.map(T::everywhere)),
+        }
+    }
+
+    /// The texture that a key names. `None` if it has a constant, whose key is `constant`, or is left out.
+    fn named<T: TextureValue>(
+        &self,
+        table: &Table,
+        key: &dyn AnyKey,
+        constant: &dyn AnyKey,
+    ) -> Result<Option<TextureHandle<T>>, Fault> {
+        let Some(node) = table.value(key)? else { return Ok(None) };
+        let name = match &node.value {
+            Value::Text(name) => name,
+            Value::Number(_) | Value::Array(_) => return Ok(None),
+            other => return Err(table.unfit(key, node, other.to_string(), key.expected())),
+        };
+        let Some((_, texture)) = self.0.iter().find(|(known, _)| known == name) else {
+            let known = self.0.iter().map(|(known, _)| known.as_str());
+            let problem = Problem::unknown_name("texture", name, known);
+            return Err(Fault { mark: node.mark, problem });
+        };
+        let found = T::of(texture);
+        // Of other textures the values are not known before they are asked.
+        let value = found.and_then(TextureHandle::constant).and_then(|value| value.to_value());
+        let is_fit = value.is_none_or(|value| constant.accepts(&value));
+        found.filter(|_| is_fit).cloned().map(Some).ok_or_else(|| {
+            let found = format!("the texture {name:?}, {}", describe(texture));
+            table.unfit(key, node, found, constant.expected())
+        })
+    }
+}
+
+/// Its constant value, or the type of its values.
+fn describe(texture: &AnyTexture) -> String {
+    fn of<T: TextureValue>(texture: &TextureHandle<T>, kind: &str) -> String {
+        let value = texture.constant().and_then(|value| value.to_value());
+        value.map_or_else(|| kind.to_owned(), |value| value.to_string())
+    }
+    match texture {
+        AnyTexture::Number(texture) => of(texture, "of numbers"),
+        AnyTexture::Color(texture) => of(texture, "of colours"),
+    }
+}
