@@ -51,7 +51,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod equirectangular;
 mod error;
+mod orthographic;
 mod perspective;
 mod placement;
 
@@ -59,7 +61,9 @@ use std::sync::Arc;
 
 use glam::{UVec2, Vec2, Vec3};
 
+pub use equirectangular::{EquirectangularCamera, EquirectangularSettings};
 pub use error::CameraError;
+pub use orthographic::{OrthographicCamera, OrthographicSettings};
 pub use perspective::{PerspectiveCamera, PerspectiveSettings};
 pub use placement::Handedness;
 

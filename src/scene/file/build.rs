@@ -95,6 +95,7 @@ fn keys_of_view(error: &ViewError) -> Vec<&'static str> {
             CameraError::NoDirection => vec!["camera", "look_at"],
             CameraError::NoUp => vec!["camera", "up"],
             CameraError::Fov(_) => vec!["camera", "fov"],
+            CameraError::Extent(_) => vec!["camera", "extent"],
             CameraError::LensRadius(_) => vec!["camera", "lens_radius"],
             CameraError::FocalDistance(_) => vec!["camera", "focal_distance"],
             CameraError::Resolution(..) => vec!["film", "resolution"],
