@@ -4,12 +4,14 @@
 //! have. Two methods are wrong on purpose: one cuts bright samples off, one divides by another density than it drew
 //! from.
 
+use std::sync::atomic::AtomicBool;
+
 use lobe::bxdf::{BxdfFlags, TransportMode};
 use lobe::glam::{UVec2, Vec3};
 use lobe::integrator::{DirectIntegrator, Integrator, Wave, dimension};
 use lobe::light::SkyLight;
 use lobe::metrics::convergence::{
-    Bias, Curve, Distrust, Method, Other, Pool, Reference, Run, Study, front,
+    Bias, Curve, Distrust, Method, Other, Pool, Reference, Run, RunError, Study, front,
 };
 use lobe::render::{Sampling, render_with};
 use lobe::sampling::{IndependentSampler, SampleId, Sampler};
@@ -298,6 +300,20 @@ fn rare_samples_are_no_bias() {
         named += u32::from(bias.is_certain());
     }
     assert_eq!(named, 0, "of 50 unbiased methods");
+}
+
+/// A picture that lacks samples is no run. Seen to fail with whatever the render returns taken for a picture.
+#[test]
+fn a_cancelled_render_is_no_run() {
+    let (scene, view) = (scene(), view());
+    let run = |cancel: bool| {
+        let cancel = AtomicBool::new(cancel);
+        let options = RenderOptions { cancel: Some(&cancel), ..RenderOptions::default() };
+        let method = Method::of_settings(&scene, &view, "m", RenderSettings::default(), options);
+        method.render(1, 0).map(|(image, _)| image.size)
+    };
+    assert_eq!(run(false), Ok(SIZE));
+    assert_eq!(run(true), Err(RunError::Cancelled));
 }
 
 /// A pool that went through a file goes on as if it had not, up to f32.

@@ -40,7 +40,7 @@ struct NewShape {
     emission: Option<Emission>,
 }
 
-/// A material, with its lobe if it has one and the same everywhere.
+/// A material, and its lobe if that is one constant Lambertian.
 type NewMaterial = (Arc<dyn Material>, Option<LambertianReflection>);
 
 /// Collects the parts of a [`Scene`] in any order, and checks them at the end.
@@ -61,7 +61,7 @@ impl SceneBuilder {
         self
     }
 
-    /// Adds a material that may be held elsewhere too.
+    /// Adds a material that is shared with others.
     pub fn shared_material(mut self, name: impl Into<String>, material: Arc<dyn Material>) -> Self {
         self.materials.insert(name.into(), (material, None));
         self
@@ -77,12 +77,12 @@ impl SceneBuilder {
         self.add_shape(name.into(), mesh, Some(material.into()), None)
     }
 
-    /// Adds a mesh in world space that sends out light, and reflects none.
+    /// Adds a mesh in world space that emits light and reflects none.
     pub fn lamp(self, name: impl Into<String>, mesh: TriangleMesh, emission: Emission) -> Self {
         self.add_shape(name.into(), mesh, None, Some(emission))
     }
 
-    /// Adds a mesh in world space that sends out light, and reflects what the material of that name does.
+    /// Adds a mesh in world space that emits light, made of the material of that name.
     pub fn glowing_shape(
         self,
         name: impl Into<String>,

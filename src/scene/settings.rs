@@ -5,16 +5,16 @@ use glam::UVec2;
 use crate::film::{Display, Filter, Window};
 use crate::spectrum::Spectrum;
 
-/// The film's size and look.
+/// The size of the image, the part of it that is rendered, its filter, and how it is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmSettings {
     /// Columns and rows of the image.
     pub resolution: UVec2,
-    /// The part of it to render; all of it if there is none.
+    /// The part of it to render, within the image and not empty; `None` for all of it.
     pub crop: Option<Window>,
     /// The curve from radiance to the codes of a PNG.
     pub display: Display,
-    /// How much the light around a pixel counts for it.
+    /// The reconstruction filter.
     pub filter: Filter,
 }
 
@@ -31,7 +31,7 @@ impl FilmSettings {
 }
 
 impl Default for FilmSettings {
-    /// 500 × 500 pixels, as in the chapter, shown by the sRGB curve.
+    /// 500 × 500 pixels with a box filter, shown by the sRGB curve.
     fn default() -> Self {
         Self {
             resolution: UVec2::splat(500),
@@ -81,7 +81,7 @@ pub struct SamplerSettings {
     pub kind: SamplerKind,
     /// Samples in each pixel, at least 1.
     pub spp: u32,
-    /// Each seed gives another set of samples.
+    /// Each seed gives other, independent samples.
     pub seed: u64,
     /// Into how many independent sets a correlated sampler divides the samples of a pixel. The film tells its error
     /// from how far their means differ, which one set cannot: see [`SamplerSettings::sets`].
@@ -100,7 +100,7 @@ impl SamplerSettings {
     /// The most sets that are made: more tell no more of the error.
     pub const MOST_SETS: u32 = 1024;
 
-    /// How many independent sets the samples of a pixel are divided into, all of the same size: the largest
+    /// How many independent sets of equal size the samples of a pixel are divided into: the largest
     /// divisor of `spp` that is not above `replicates`; one set if the samples are independent.
     pub fn sets(&self) -> u32 {
         if self.kind == SamplerKind::Independent {
@@ -131,29 +131,29 @@ pub enum IntegratorSettings {
         /// How directions to lights are drawn.
         strategy: LightStrategy,
     },
-    /// Light of any number of reflections: see [`PathIntegrator`](crate::integrator::PathIntegrator).
+    /// Global illumination by path tracing: see [`PathIntegrator`](crate::integrator::PathIntegrator).
     Path {
         /// The most reflections and refractions that a path has. Light that takes more is missing, so that a picture
         /// of many bounces is too dark: a faceted glass ball in a white furnace shows 0.9976 of its light at 64, and
         /// 1.0000 at 8192.
         max_depth: u32,
-        /// Whether paths that carry little end at random.
+        /// Whether Russian roulette ends paths of low throughput.
         roulette: bool,
         /// How directions to lights are drawn.
         strategy: LightStrategy,
     },
 }
 
-/// Light that a surface sends out, the same in all directions.
+/// Light that a surface emits, the same in all directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
     /// Radiance in W / (m² sr), at least 0 in each band.
     pub radiance: Spectrum,
-    /// Whether it leaves on both sides, or only outside: see [`AreaLight`](crate::light::AreaLight).
+    /// Whether both sides emit, or the outside alone: see [`AreaLight`](crate::light::AreaLight).
     pub two_sided: bool,
 }
 
-/// How the directions that light comes from are drawn.
+/// How directions towards light are sampled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LightStrategy {
     /// [`Mis`](LightStrategy::Mis) for lights that say it is worth it
@@ -161,12 +161,12 @@ pub enum LightStrategy {
     /// [`Bsdf`](LightStrategy::Bsdf) for the others.
     #[default]
     Auto,
-    /// From the light and from the surface, weighed against each other by the power heuristic
+    /// From the light and from the surface's lobes, combined by the power heuristic
     /// (Veach 1997, section 9.2.4).
     Mis,
     /// From the light alone.
     Light,
-    /// From the surface alone. Lights without extent, which no ray hits by chance, are drawn from all the same.
+    /// From the surface's lobes alone; delta lights, which no ray hits by chance, are sampled all the same.
     Bsdf,
 }
 
@@ -176,7 +176,7 @@ impl IntegratorSettings {
         Self::Direct { strategy: LightStrategy::Auto }
     }
 
-    /// Paths of up to `max_depth` reflections, with roulette and the strategy that suits each light.
+    /// Path tracing up to `max_depth` reflections, with Russian roulette and the strategy that suits each light.
     pub const fn path(max_depth: u32) -> Self {
         Self::Path { max_depth, roulette: true, strategy: LightStrategy::Auto }
     }
