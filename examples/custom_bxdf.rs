@@ -9,10 +9,11 @@ mod torus;
 use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, BxdfSample};
 use lobe::geometry::{reflect, refract};
 use lobe::glam::{Vec2, Vec3};
+use lobe::integrator::PathIntegrator;
 use lobe::interaction::SurfaceInteraction;
 use lobe::light::SkyLight;
 use lobe::material::Material;
-use lobe::scene::IntegratorSettings;
+use lobe::render::SamplerSettings;
 use lobe::{
     FilmSettings, PerspectiveSettings, RenderOptions, RenderSettings, Scene, Spectrum, View, render,
 };
@@ -84,8 +85,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ..PerspectiveSettings::default()
     };
     let view = View::perspective(&camera, FilmSettings::new(64, 64))?;
-    let integrator = IntegratorSettings::path(1024);
-    let settings = RenderSettings { integrator, ..RenderSettings::default() };
+    let settings = RenderSettings::new(SamplerSettings::default(), PathIntegrator::new(1024));
     let rendered = render(&scene, &view, &settings, &RenderOptions::default())?;
     let pixels = &rendered.picture.color;
     let mean = pixels.iter().map(|pixel| pixel.to_array()[0]).sum::<f32>() / pixels.len() as f32;

@@ -9,8 +9,10 @@ use std::sync::Arc;
 
 use lobe::glam::{Affine3A, Vec2, Vec3};
 use lobe::image::{Display, Metadata, write_png};
+use lobe::integrator::DirectIntegrator;
 use lobe::interaction::SurfaceInteraction;
-use lobe::scene::{IntegratorSettings, SamplerKind, SamplerSettings};
+use lobe::render::SamplerSettings;
+use lobe::sampling::SamplerKind;
 use lobe::texture::Texture;
 use lobe::{
     FilmSettings, MatteMaterial, PerspectiveSettings, PointLight, RenderOptions, RenderSettings,
@@ -71,7 +73,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let view = View::perspective(&camera, FilmSettings::default())?;
     let sampler =
         SamplerSettings { kind: SamplerKind::STRATIFIED, spp: 16, ..SamplerSettings::default() };
-    let settings = RenderSettings { sampler, integrator: IntegratorSettings::direct() };
+    let settings = RenderSettings::new(sampler, DirectIntegrator::default());
     let rendered = render(&scene, &view, &settings, &RenderOptions::default())?;
     write_png(Path::new(&file), &rendered.picture, Display::Srgb, &Metadata::default())?;
     println!("wrote {file} in {:.2} s", rendered.seconds);

@@ -46,8 +46,8 @@ pub use camera::PerspectiveSettings;
 pub use glam;
 pub use light::PointLight;
 pub use material::MatteMaterial;
-pub use render::{RenderOptions, render};
-pub use scene::{FilmSettings, RenderSettings, Scene, View};
+pub use render::{RenderOptions, RenderSettings, render};
+pub use scene::{FilmSettings, Scene, View};
 pub use shape::TriangleMesh;
 pub use spectrum::Spectrum;
 

@@ -11,12 +11,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags};
 use lobe::film::Filter;
 use lobe::glam::Vec3;
+use lobe::integrator::{ChapterIntegrator, DirectIntegrator, PathIntegrator};
 use lobe::interaction::SurfaceInteraction;
-use lobe::light::SkyLight;
+use lobe::light::{LightStrategy, SkyLight};
 use lobe::material::Material;
-use lobe::scene::{IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings};
+use lobe::render::SamplerSettings;
+use lobe::sampling::SamplerKind;
 use lobe::{FilmSettings, PointLight, RenderOptions, RenderSettings, Spectrum, View, render};
-use scenes::{ball_over_floor, chapter_camera};
+use scenes::{any, ball_over_floor, chapter_camera};
 
 /// The system's allocator, counting.
 struct Counting;
@@ -75,14 +77,14 @@ impl Material for ForeignMaterial {
 /// hit's material call, and with a new `Wave` for each tile.
 #[test]
 fn rendering_allocates_nothing_after_set_up() {
-    let chapter = IntegratorSettings::Chapter { highlight: true };
+    let chapter = ChapterIntegrator { highlight: true };
     for (integrator, kind) in [
-        (chapter, SamplerKind::INDEPENDENT),
-        (IntegratorSettings::direct(), SamplerKind::INDEPENDENT),
-        (IntegratorSettings::direct(), SamplerKind::STRATIFIED),
-        (IntegratorSettings::Direct { strategy: LightStrategy::Mis }, SamplerKind::SOBOL),
-        (IntegratorSettings::path(6), SamplerKind::SOBOL),
-        (IntegratorSettings::path(6), SamplerKind::BLUE_NOISE),
+        (any(chapter), SamplerKind::INDEPENDENT),
+        (any(DirectIntegrator::default()), SamplerKind::INDEPENDENT),
+        (any(DirectIntegrator::default()), SamplerKind::STRATIFIED),
+        (any(DirectIntegrator { strategy: LightStrategy::Mis }), SamplerKind::SOBOL),
+        (any(PathIntegrator::new(6)), SamplerKind::SOBOL),
+        (any(PathIntegrator::new(6)), SamplerKind::BLUE_NOISE),
     ] {
         let sampler = SamplerSettings { kind, spp: 16, ..Default::default() };
         let film = FilmSettings { filter: Filter::gaussian(), ..FilmSettings::new(100, 80) };
@@ -113,7 +115,7 @@ fn rendering_allocates_nothing_after_set_up() {
             progress: Some(&progress),
             ..RenderOptions::default()
         };
-        let settings = RenderSettings { sampler, integrator };
+        let settings = RenderSettings::new(sampler, integrator.clone());
         render(&scene, &view, &settings, &options).unwrap();
         let [first, last] = *seen.lock().unwrap();
         assert!(first.0 == 30 && last.0 == 130, "{first:?}, {last:?}");

@@ -4,16 +4,18 @@
 //! have. Two methods are wrong on purpose: one cuts bright samples off, one divides by another density than it drew
 //! from.
 
+use std::sync::atomic::AtomicBool;
+
 use lobe::bxdf::BxdfFlags;
 use lobe::glam::{UVec2, Vec3};
 use lobe::integrator::{DirectIntegrator, Estimator, Integrator, Wave, dimension};
-use lobe::light::SkyLight;
+use lobe::light::{LightStrategy, SkyLight};
 use lobe::metrics::convergence::{
-    Bias, Curve, Distrust, Method, Other, Reference, Run, RunningMean, Study, pareto_front,
+    Bias, Curve, Distrust, Method, Other, Reference, Run, RunError, RunningMean, Study,
+    pareto_front,
 };
-use lobe::render::{Sampling, render_with};
-use lobe::sampling::{IndependentSampler, SampleId, Sampler};
-use lobe::scene::{IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings};
+use lobe::render::{SamplerSettings, Sampling, render_with};
+use lobe::sampling::{IndependentSampler, SampleId, Sampler, SamplerKind};
 use lobe::{
     FilmSettings, MatteMaterial, PerspectiveSettings, RenderOptions, RenderSettings, Scene,
     Spectrum, TriangleMesh, View, render,
@@ -66,8 +68,8 @@ fn reference(scene: &Scene) -> Reference {
             seed: 1000 + part,
             replicates: 1,
         };
-        let integrator = IntegratorSettings::Direct { strategy: LightStrategy::Light };
-        let settings = RenderSettings { sampler, integrator };
+        let integrator = DirectIntegrator { strategy: LightStrategy::Light };
+        let settings = RenderSettings::new(sampler, integrator);
         let rendered = render(scene, &view(), &settings, &RenderOptions::default()).unwrap();
         pool.add(&rendered.picture.color);
     }
@@ -311,6 +313,20 @@ fn rare_samples_are_no_bias() {
         named += u32::from(bias.is_certain());
     }
     assert_eq!(named, 0, "of 50 unbiased methods");
+}
+
+/// A picture that lacks samples is no run. Seen to fail with whatever the render returns taken for a picture.
+#[test]
+fn a_cancelled_render_is_no_run() {
+    let (scene, view) = (scene(), view());
+    let run = |cancel: bool| {
+        let cancel = AtomicBool::new(cancel);
+        let options = RenderOptions { cancel: Some(&cancel), ..RenderOptions::default() };
+        let method = Method::of_settings(&scene, &view, "m", RenderSettings::default(), options);
+        method.render(1, 0).map(|(image, _)| image.size)
+    };
+    assert_eq!(run(false), Ok(SIZE));
+    assert_eq!(run(true), Err(RunError::Cancelled));
 }
 
 /// A pool that went through a file goes on as if it had not, up to f32.

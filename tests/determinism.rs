@@ -8,8 +8,11 @@ use std::time::Duration;
 use lobe::film::Filter;
 use lobe::glam::{UVec2, Vec3};
 use lobe::image::{Metadata, Picture, Window, write_exr};
+use lobe::integrator::PathIntegrator;
 use lobe::light::SkyLight;
-use lobe::scene::{Emission, IntegratorSettings, SamplerKind, SamplerSettings};
+use lobe::render::SamplerSettings;
+use lobe::sampling::SamplerKind;
+use lobe::scene::Emission;
 use lobe::{
     FilmSettings, PerspectiveSettings, PointLight, RenderOptions, RenderSettings, Scene, Spectrum,
     TriangleMesh, View, render,
@@ -46,7 +49,7 @@ fn view(crop: Option<Window>) -> View {
 
 fn settings(kind: SamplerKind, spp: u32, seed: u64) -> RenderSettings {
     let sampler = SamplerSettings { kind, spp, seed, ..Default::default() };
-    RenderSettings { sampler, integrator: IntegratorSettings::path(5) }
+    RenderSettings::new(sampler, PathIntegrator::new(5))
 }
 
 fn picture(view: &View, settings: &RenderSettings, threads: usize, tile_size: u32) -> Picture {

@@ -8,7 +8,6 @@ use std::f64::consts::PI;
 use lobe::glam::{DVec3, UVec2, Vec3};
 use lobe::integrator::DirectIntegrator;
 use lobe::render::{Sampling, render_with};
-use lobe::scene::IntegratorSettings;
 use lobe::{
     MatteMaterial, PerspectiveSettings, PointLight, RenderOptions, Scene, Spectrum, TriangleMesh,
     render,
@@ -158,7 +157,7 @@ fn two_lights_add_up() {
             builder = builder.light(PointLight::new(position, Spectrum::splat(300.0)));
         }
         let view = chapter_view(UVec2::new(40, 30));
-        let settings = independent(64, IntegratorSettings::direct());
+        let settings = independent(64, DirectIntegrator::default());
         render(&builder.build().unwrap(), &view, &settings, &RenderOptions::default()).unwrap()
     };
     let (first, second, both) = (with(&lights[..1]), with(&lights[1..]), with(&lights));

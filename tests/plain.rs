@@ -4,12 +4,13 @@ mod scenes;
 
 use lobe::bxdf::{Arena, Bsdf};
 use lobe::glam::{UVec2, Vec3};
+use lobe::integrator::{DirectIntegrator, PathIntegrator};
 use lobe::interaction::SurfaceInteraction;
-use lobe::light::{DistantLight, SkyLight};
+use lobe::light::{DistantLight, LightStrategy, SkyLight};
 use lobe::material::Material;
-use lobe::scene::{Emission, IntegratorSettings, LightStrategy, SceneBuilder};
+use lobe::scene::{Emission, SceneBuilder};
 use lobe::{MatteMaterial, PointLight, RenderOptions, Spectrum, TriangleMesh, render};
-use scenes::{ball_over_floor, chapter_view, independent};
+use scenes::{any, ball_over_floor, chapter_view, independent};
 
 /// A matte surface that the scene cannot know for one.
 struct Disguised(MatteMaterial);
@@ -41,11 +42,10 @@ fn lit_scene() -> SceneBuilder {
 /// where nothing else is.
 #[test]
 fn shading_four_hits_at_once_changes_no_bit() {
-    let path =
-        |max_depth, strategy| IntegratorSettings::Path { max_depth, roulette: true, strategy };
+    let path = |max_depth, strategy| any(PathIntegrator { max_depth, roulette: true, strategy });
     let [auto, mis] = [LightStrategy::Auto, LightStrategy::Mis];
     let [light, bsdf] = [LightStrategy::Light, LightStrategy::Bsdf];
-    let direct = |strategy| IntegratorSettings::Direct { strategy };
+    let direct = |strategy| any(DirectIntegrator { strategy });
     for integrator in [
         direct(auto),
         direct(mis),
@@ -58,7 +58,7 @@ fn shading_four_hits_at_once_changes_no_bit() {
         for scene in [scene, lit_scene] {
             let colors = |builder: SceneBuilder| {
                 let (scene, view) = (builder.build().unwrap(), chapter_view(UVec2::new(61, 43)));
-                let settings = independent(64, integrator);
+                let settings = independent(64, integrator.clone());
                 render(&scene, &view, &settings, &RenderOptions::default()).unwrap().picture.color
             };
             let red = || Disguised(MatteMaterial::new([0.8, 0.1, 0.2]));

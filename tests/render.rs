@@ -1,20 +1,23 @@
 //! What the render loop promises beside the picture: what it counts, what it keeps of first hits, that
-//! it ends on request, and that lights with an extent get samples.
+//! it ends on request and with what, and that lights with an extent get samples.
 
 mod scenes;
 
-use std::sync::Arc;
+use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
 
 use lobe::bxdf::{Arena, Bsdf};
 use lobe::geometry::Frame;
 use lobe::glam::{UVec2, Vec2, Vec3};
-use lobe::integrator::DirectIntegrator;
+use lobe::integrator::{DirectIntegrator, Estimator, Integrator, PathIntegrator, Wave};
 use lobe::interaction::{Shading, SurfaceInteraction};
-use lobe::light::{BoundingSphere, Light, LightSample};
+use lobe::light::{BoundingSphere, Light, LightSample, SkyLight};
 use lobe::material::Material;
-use lobe::render::{Rendered, Sampling, render_with};
-use lobe::scene::{IntegratorSettings, SceneBuilder};
+use lobe::render::{RenderError, Rendered, Sampling, SettingsError, render_with};
+use lobe::sampling::{IndependentSampler, Sampler, SamplerKind};
+use lobe::scene::SceneBuilder;
 use lobe::texture::Texture;
 use lobe::{
     MatteMaterial, PerspectiveSettings, PointLight, RenderOptions, RenderSettings, Scene, Spectrum,
@@ -39,7 +42,7 @@ fn from_above() -> View {
 }
 
 fn settings() -> RenderSettings {
-    independent(4, IntegratorSettings::direct())
+    independent(4, DirectIntegrator::default())
 }
 
 fn rendered(scene: SceneBuilder, view: &View) -> Rendered {
@@ -106,7 +109,7 @@ fn frames_that_are_none_are_counted() {
 fn threads_that_took_part_are_told() {
     let scene = floor_of(MatteMaterial::new([0.5; 3])).build().unwrap();
     for (asked, tile_size, expected) in [(7, 16, 1), (7, 8, 4), (2, 8, 2)] {
-        let threads = std::num::NonZeroUsize::new(asked);
+        let threads = NonZeroUsize::new(asked);
         let options = RenderOptions { threads, tile_size, ..RenderOptions::default() };
         let rendered = render(&scene, &from_above(), &settings(), &options).unwrap();
         assert_eq!(rendered.threads, expected);
@@ -145,8 +148,8 @@ fn layers_are_zero_where_nothing_is() {
     assert!(layers.normal.iter().all(|normal| *normal == Vec3::ZERO));
 }
 
-/// A render ends after the tile during which it is told to, and a request after the last tile comes too
-/// late. Seen to fail with the request looked at only once, and with it looked at again at the end.
+/// A render that is cancelled by what is told of its progress ends after that tile, and a request after the last tile
+/// comes too late. Seen to fail with the request looked at only once, and with it looked at again at the end.
 #[test]
 fn cancelling_ends_a_render() {
     let (scene, view) = (ball_over_floor().build().unwrap(), chapter_view(UVec2::splat(64)));
@@ -159,7 +162,7 @@ fn cancelling_ends_a_render() {
             }
         };
         let options = RenderOptions {
-            threads: std::num::NonZeroUsize::new(1),
+            threads: NonZeroUsize::new(1),
             tile_size: 8,
             progress: Some(&progress),
             cancel: Some(&cancel),
@@ -169,6 +172,192 @@ fn cancelling_ends_a_render() {
         assert_eq!(tiles.load(Ordering::Relaxed), expected_tiles);
         assert_eq!(rendered.complete, stop_at == 64, "stopped at {stop_at}");
         assert_eq!(rendered.empty_pixels, u64::from(64 - stop_at) * 64);
+    }
+}
+
+/// Counts waves, and cancels the render in one of them.
+struct CancelsInWave<'a> {
+    inner: DirectIntegrator,
+    waves: AtomicU32,
+    number: u32,
+    cancel: &'a AtomicBool,
+}
+
+impl Integrator for CancelsInWave<'_> {
+    fn prepare<'a>(&'a self, scene: &'a Scene) -> Box<dyn Estimator + 'a> {
+        Box::new(CancelsInWaveEstimator { inner: self.inner.prepare(scene), of: self })
+    }
+}
+
+struct CancelsInWaveEstimator<'a> {
+    inner: Box<dyn Estimator + 'a>,
+    of: &'a CancelsInWave<'a>,
+}
+
+impl Estimator for CancelsInWaveEstimator<'_> {
+    fn shade(&self, sampler: &dyn Sampler, wave: &mut Wave) {
+        if self.of.waves.fetch_add(1, Ordering::SeqCst) + 1 == self.of.number {
+            self.of.cancel.store(true, Ordering::SeqCst);
+        }
+        self.inner.shade(sampler, wave);
+    }
+
+    fn shadow_rays(&self) -> usize {
+        self.inner.shadow_rays()
+    }
+}
+
+/// No wave begins once a render is cancelled, however large tiles are: other threads end those that they are in. Seen
+/// to fail with the request looked at before each tile.
+#[test]
+fn a_cancelled_render_ends_within_a_wave() {
+    let scene = ball_over_floor().light(PointLight::new(Vec3::Y, Spectrum::WHITE)).build().unwrap();
+    let sampler = IndependentSampler::new(0);
+    // 16 waves in each of 16 tiles.
+    for (threads, number) in [(1, 1), (1, 100), (1, 256), (3, 100)] {
+        let cancel = AtomicBool::new(false);
+        let inner = DirectIntegrator::default();
+        let integrator = CancelsInWave { inner, waves: AtomicU32::new(0), number, cancel: &cancel };
+        let options = RenderOptions {
+            threads: NonZeroUsize::new(threads),
+            tile_size: 32,
+            cancel: Some(&cancel),
+            ..RenderOptions::default()
+        };
+        let rendered = render_with(
+            &scene,
+            &chapter_view(UVec2::splat(128)),
+            &integrator,
+            Sampling::new(&sampler, 16),
+            &options,
+        )
+        .unwrap();
+        let waves = integrator.waves.into_inner();
+        let most = number + threads as u32 - 1;
+        assert!((number..=most).contains(&waves), "{threads} threads: {waves} of {most} waves");
+        assert_eq!(rendered.counters.camera_rays, u64::from(waves) * 1024);
+        assert_eq!(rendered.complete, number == 256, "in wave {number}");
+        if threads == 1 {
+            assert_eq!(rendered.empty_pixels, (16 - u64::from(number) / 16) * 1024);
+        }
+    }
+}
+
+/// A cancelled render has its whole passes, and the tiles that its last pass finished. Passes of 2, 2, 4 and 8 samples
+/// here; tiles of 8 × 8 in rows of 8. Seen to fail with the tile of the request merged unfinished, and with the number
+/// of samples of the pass that was cancelled.
+#[test]
+fn a_cancelled_render_returns_what_it_has() {
+    let light = SkyLight::new(Spectrum::new(0.2, 0.4, 0.8));
+    let (scene, view) =
+        (ball_over_floor().light(light).build().unwrap(), chapter_view(UVec2::splat(64)));
+    let mut settings = independent(16, PathIntegrator::new(3));
+    settings.sampler.kind = SamplerKind::SOBOL;
+    let options = RenderOptions {
+        threads: NonZeroUsize::new(1),
+        tile_size: 8,
+        time: Some(Duration::MAX),
+        layers: true,
+        ..RenderOptions::default()
+    };
+    // Black, and the pictures of whole passes.
+    let whole: Vec<_> = [2, 4, 8, 16]
+        .map(|spp| {
+            let options = RenderOptions { spp: Some(spp), ..options };
+            let rendered = render(&scene, &view, &settings, &options).unwrap();
+            assert!(rendered.complete && rendered.samples_per_pixel == spp);
+            rendered.picture.color
+        })
+        .into_iter()
+        .collect();
+    let colors = |pass: usize, place: usize| match pass {
+        0 => Spectrum::BLACK,
+        _ => whole[pass - 1][place],
+    };
+    for (passes, tiles) in [(0, 0), (0, 10), (1, 0), (2, 0), (2, 1), (2, 63), (3, 30)] {
+        let cancel = AtomicBool::new(tiles == 0 && passes == 0);
+        let done = AtomicU32::new(0);
+        let stop_at = 64 * passes as u32 + tiles;
+        let progress = |_| {
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            cancel.fetch_or(done == stop_at, Ordering::Relaxed);
+        };
+        let options = RenderOptions {
+            spp: Some(16),
+            progress: Some(&progress),
+            cancel: Some(&cancel),
+            ..options
+        };
+        let rendered = render(&scene, &view, &settings, &options).unwrap();
+        let what = format!("cancelled after {passes} passes and {tiles} tiles");
+        let samples_of = [0, 2, 4, 8, 16];
+        assert!(!rendered.complete, "{what}");
+        assert_eq!(rendered.samples_per_pixel, samples_of[passes], "{what}");
+        let empty = if passes == 0 { 64 * (64 - u64::from(tiles)) } else { 0 };
+        assert_eq!(rendered.empty_pixels, empty, "{what}");
+        let samples = rendered.picture.layers.unwrap().samples;
+        for (place, color) in rendered.picture.color.into_iter().enumerate() {
+            let tile = place / 64 / 8 * 8 + place % 64 / 8;
+            let passes = passes + usize::from(tile < tiles as usize);
+            assert_eq!(samples[place], samples_of[passes], "{what}, pixel {place}");
+            assert_eq!(color, colors(passes, place), "{what}, pixel {place}");
+        }
+    }
+}
+
+/// Each pass is handed over as it ends, with the picture so far; that changes nothing, and may cancel the render. Seen
+/// to fail with the callback before the pass is counted, and with it called after a cancelled pass.
+#[test]
+fn passes_are_handed_over() {
+    let light = SkyLight::new(Spectrum::WHITE);
+    let (scene, view) =
+        (ball_over_floor().light(light).build().unwrap(), chapter_view(UVec2::new(20, 15)));
+    let settings = independent(7, PathIntegrator::new(3));
+    let options = RenderOptions {
+        time: Some(Duration::MAX),
+        layers: true,
+        spp: Some(7),
+        ..RenderOptions::default()
+    };
+    let without = render(&scene, &view, &settings, &options).unwrap();
+    let until = |stop_at: u32| {
+        let (cancel, pictures) = (AtomicBool::new(false), Mutex::new(Vec::new()));
+        let on_pass = |rendered: &Rendered| {
+            assert!(!rendered.complete && rendered.empty_pixels == 0);
+            cancel.store(rendered.samples_per_pixel == stop_at, Ordering::Relaxed);
+            let picture = rendered.picture.clone();
+            pictures.lock().unwrap().push((rendered.samples_per_pixel, picture));
+        };
+        let options = RenderOptions { on_pass: Some(&on_pass), cancel: Some(&cancel), ..options };
+        let rendered = render(&scene, &view, &settings, &options).unwrap();
+        (rendered, pictures.into_inner().unwrap())
+    };
+    let (rendered, pictures) = until(0);
+    assert!(rendered.complete && rendered.picture == without.picture);
+    assert_eq!(pictures.iter().map(|(spp, _)| *spp).collect::<Vec<_>>(), [1, 2, 4, 7]);
+    assert!(pictures[3].1 == without.picture);
+    for (spp, picture) in &pictures[..3] {
+        let options = RenderOptions { spp: Some(*spp), ..options };
+        assert!(render(&scene, &view, &settings, &options).unwrap().picture == *picture);
+        let (rendered, seen) = until(*spp);
+        assert!(!rendered.complete && rendered.samples_per_pixel == *spp);
+        assert!(rendered.picture == *picture && seen.last().unwrap().0 == *spp);
+    }
+}
+
+/// No samples, no mean.
+#[test]
+fn no_samples_are_an_error() {
+    let (scene, view) = (Scene::builder().build().unwrap(), from_above());
+    let none = RenderOptions { spp: Some(0), ..RenderOptions::default() };
+    let expected = RenderError::Settings(SettingsError::NoSamples);
+    for (spp, options) in [(0, RenderOptions::default()), (4, none)] {
+        let settings = independent(spp, DirectIntegrator::default());
+        assert_eq!(render(&scene, &view, &settings, &options).err(), Some(expected));
+        let integrator = DirectIntegrator::default();
+        let sampling = Sampling::new(&Middle, spp);
+        let rendered = render_with(&scene, &view, &integrator, sampling, &options);
+        assert_eq!(rendered.err(), Some(expected));
     }
 }
 
@@ -209,7 +398,7 @@ fn lights_with_an_extent_are_sampled() {
         ..PerspectiveSettings::default()
     };
     let scene = floor_of(MatteMaterial::new([1.0; 3])).light(Panel).build().unwrap();
-    let mut settings = independent(spp, IntegratorSettings::direct());
+    let mut settings = independent(spp, DirectIntegrator::default());
     settings.sampler.seed = 5;
     let tiny = view(&tiny, UVec2::ONE);
     let rendered = render(&scene, &tiny, &settings, &RenderOptions::default()).unwrap();

@@ -17,6 +17,9 @@ pub enum CameraError {
     /// No image plane has this field of view.
     #[error("the camera's fov is {0} degrees: it has to be above 0 and below 180")]
     Fov(f32),
+    /// An orthographic image has no size.
+    #[error("the camera's extent is {0}: it has to be above 0")]
+    Extent(f32),
     /// The lens radius is negative.
     #[error("the camera's lens_radius is {0}: it cannot be negative")]
     LensRadius(f32),

@@ -22,7 +22,7 @@
 //! use lobe::camera::Camera;
 //! use lobe::geometry::Ray;
 //! use lobe::glam::{UVec2, Vec2, Vec3};
-//! use lobe::scene::{FilmSettings, RenderSettings, View};
+//! use lobe::scene::{FilmSettings, View};
 //! use lobe::{RenderOptions, Scene, Spectrum, light::SkyLight, render};
 //!
 //! /// Equidistant fisheye: the angle from +z grows with the distance from the middle of the image.
@@ -51,103 +51,22 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod equirectangular;
 mod error;
+mod orthographic;
 mod perspective;
 mod placement;
+mod traits;
 
-use std::sync::Arc;
-
-use glam::{UVec2, Vec2, Vec3};
-
+pub use equirectangular::{EquirectangularCamera, EquirectangularSettings};
 pub use error::CameraError;
+pub use orthographic::{OrthographicCamera, OrthographicSettings};
 pub use perspective::{PerspectiveCamera, PerspectiveSettings};
 pub use placement::Handedness;
+pub(crate) use traits::prepare;
+pub use traits::{Camera, Read};
 
-use crate::geometry::Ray;
-use crate::geometry::float::LARGEST_COORDINATE;
+use crate::params::Kind;
 
-/// Rays for the samples of an image.
-///
-/// A ray counts from its `t_min` to its `t_max`. Its direction may have any length but zero: before it is traced, it
-/// is normalized unless it has unit length to rounding. A ray is refused whose origin is not finite or beyond
-/// [`LARGEST_COORDINATE`], whose direction is zero or not finite, or whose `t_min` or `t_max` is NaN: it is not
-/// traced, its sample is left out of the pixel, and
-/// [`Counters::refused_camera_rays`](crate::integrator::Counters::refused_camera_rays) counts it.
-pub trait Camera: Send + Sync {
-    /// Columns and rows of the image that the camera was built for.
-    fn resolution(&self) -> UVec2;
-
-    /// Whether rays depend on `lens`. If not, no samples of the lens are drawn.
-    fn has_lens(&self) -> bool;
-
-    /// The ray through the point `offset` of a pixel, in pixels from its upper left corner; (1, 1) is the lower right
-    /// one. A wide filter asks for points outside of `[0, 1]²`, up to 16 pixels beyond, also beyond the image.
-    ///
-    /// `lens` in `[0, 1)²` is a uniform sample for the point on the lens; zero if [`Camera::has_lens`] is false.
-    fn generate_ray(&self, pixel: UVec2, offset: Vec2, lens: Vec2) -> Ray;
-
-    /// Fills `rays` with [`Camera::generate_ray`] of one pixel for each offset and lens sample. An own version must
-    /// give the same bits.
-    ///
-    /// # Panics
-    /// May panic unless all three slices have the same length.
-    fn generate_rays(&self, pixel: UVec2, offsets: &[Vec2], lens: &[Vec2], rays: &mut [Ray]) {
-        for ((ray, &offset), &lens) in rays.iter_mut().zip(offsets).zip(lens) {
-            *ray = self.generate_ray(pixel, offset, lens);
-        }
-    }
-
-    /// What it is and where it stands, in one line for people.
-    fn describe(&self) -> String {
-        "of another crate".to_owned()
-    }
-}
-
-impl<C: Camera + ?Sized> Camera for Arc<C> {
-    fn resolution(&self) -> UVec2 {
-        (**self).resolution()
-    }
-
-    fn has_lens(&self) -> bool {
-        (**self).has_lens()
-    }
-
-    fn generate_ray(&self, pixel: UVec2, offset: Vec2, lens: Vec2) -> Ray {
-        (**self).generate_ray(pixel, offset, lens)
-    }
-
-    fn generate_rays(&self, pixel: UVec2, offsets: &[Vec2], lens: &[Vec2], rays: &mut [Ray]) {
-        (**self).generate_rays(pixel, offsets, lens, rays);
-    }
-
-    fn describe(&self) -> String {
-        (**self).describe()
-    }
-}
-
-/// Makes a camera's ray fit to be traced: its direction gets unit length. Returns whether that is possible, by the
-/// rules of [`Camera`].
-#[inline]
-pub(crate) fn prepare(ray: &mut Ray) -> bool {
-    // A comparison with NaN is false.
-    let in_range = ray.o.abs().cmple(Vec3::splat(LARGEST_COORDINATE)).all()
-        && !ray.t_min.is_nan()
-        && !ray.t_max.is_nan();
-    let is_unit = (ray.d.length_squared() - 1.0).abs() <= UNIT_TOLERANCE;
-    in_range && (is_unit || normalize(ray))
-}
-
-/// Of a squared length. Several times what rounding does to one that was normalized in f32.
-const UNIT_TOLERANCE: f32 = 4e-6;
-
-#[cold]
-fn normalize(ray: &mut Ray) -> bool {
-    // In f64, where no square of a float overflows or vanishes.
-    let Some(d) = ray.d.as_dvec3().try_normalize() else { return false };
-    // What was measured in the old length stays where it is.
-    let length = ray.d.as_dvec3().length();
-    ray.t_min = (f64::from(ray.t_min) * length) as f32;
-    ray.t_max = (f64::from(ray.t_max) * length) as f32;
-    ray.d = d.as_vec3();
-    true
-}
+/// All kinds of cameras.
+pub static CAMERAS: &[Kind<Read>] = &[perspective::KIND, orthographic::KIND, equirectangular::KIND];

@@ -1,11 +1,18 @@
 //! [`PerspectiveCamera`]: what is farther away is smaller.
 
+use std::sync::Arc;
+
 use glam::{UVec2, Vec2, Vec3, Vec4};
 
-use super::placement::{Axes, check_lens, check_resolution};
-use super::{Camera, CameraError, Handedness};
+use super::error::CameraError;
+use super::placement::{
+    Axes, EYE, FOCAL_DISTANCE, HANDEDNESS, Handedness, LENS_RADIUS, LOOK_AT, UP, check_lens,
+    check_resolution, fault,
+};
+use super::traits::{Camera, Read};
 use crate::geometry::Ray;
 use crate::geometry::four::{Vec3x4, four, rays_x4};
+use crate::params::{AnyKey, Fault, Key, Kind, Table};
 use crate::sampling::concentric_disk;
 
 /// How a perspective camera stands and sees. The defaults look from the origin along +z, 90 degrees wide.
@@ -169,5 +176,37 @@ impl Camera for PerspectiveCamera {
             false => "pinhole".into(),
         };
         format!("{eye} to {look_at}, {fov} degrees, {lens}{}", handedness.note())
+    }
+}
+
+const FOV: Key<f32> = Key::new("fov", "field of view across the shorter side of the image")
+    .in_unit("degrees")
+    .above(0.0)
+    .below(180.0)
+    .default(90.0);
+const KEYS: &[&dyn AnyKey] =
+    &[&EYE, &LOOK_AT, &UP, &HANDEDNESS, &FOV, &LENS_RADIUS, &FOCAL_DISTANCE];
+
+/// `type = "perspective"`
+pub(super) const KIND: Kind<Read> = Kind {
+    name: "perspective",
+    meaning: "Perspective, with a thin lens if it has one",
+    keys: KEYS,
+    read,
+};
+
+fn read(table: &Table, resolution: UVec2) -> Result<Arc<dyn Camera>, Fault> {
+    let settings = PerspectiveSettings {
+        eye: table.get(&EYE)?,
+        look_at: table.get(&LOOK_AT)?,
+        up: table.get(&UP)?,
+        handedness: table.get(&HANDEDNESS)?,
+        fov: table.get(&FOV)?,
+        lens_radius: table.get(&LENS_RADIUS)?,
+        focal_distance: table.get(&FOCAL_DISTANCE)?,
+    };
+    match PerspectiveCamera::new(&settings, resolution) {
+        Ok(camera) => Ok(Arc::new(camera)),
+        Err(error) => Err(fault(table, KEYS, error)),
     }
 }

@@ -2,8 +2,9 @@
 
 use glam::{DVec3, UVec2, Vec3};
 
-use super::CameraError;
+use super::error::CameraError;
 use crate::geometry::float::LARGEST_COORDINATE;
+use crate::params::{AnyKey, Choice, Fault, Key, Table};
 
 /// On which side of the view the right of the image lies: how a world's axes were meant.
 ///
@@ -16,6 +17,41 @@ pub enum Handedness {
     Left,
     /// Right-handed, as in Blender, glTF and most other programs: the right of the image is view × up.
     Right,
+}
+
+impl Choice for Handedness {
+    const CHOICES: &'static [(&'static str, Self)] =
+        &[("left", Self::Left), ("right", Self::Right)];
+}
+
+pub(super) const EYE: Key<Vec3> = Key::new("eye", "where it stands").default(Vec3::ZERO);
+pub(super) const LOOK_AT: Key<Vec3> =
+    Key::new("look_at", "a point in the middle of the image").default(Vec3::Z);
+pub(super) const UP: Key<Vec3> =
+    Key::new("up", "a direction that is up in the image").default(Vec3::Y);
+pub(super) const HANDEDNESS: Key<Handedness> = Key::new(
+    "handedness",
+    "of the world: \"left\" as in PBRT, \"right\" as in Blender, glTF and most other programs",
+)
+.default(Handedness::Left);
+pub(super) const LENS_RADIUS: Key<f32> =
+    Key::new("lens_radius", "radius of the lens, in scene units; 0 for a pinhole")
+        .at_least(0.0)
+        .default(0.0);
+pub(super) const FOCAL_DISTANCE: Key<f32> =
+    Key::new("focal_distance", "distance of the plane in focus, in scene units; for a lens")
+        .above(0.0)
+        .default(1.0);
+
+/// Says at the key that it is about why the values of a camera's keys do not fit together.
+pub(super) fn fault(table: &Table, keys: &[&dyn AnyKey], error: CameraError) -> Fault {
+    let name = match error {
+        CameraError::OutOfRange(name) => name,
+        CameraError::NoUp => UP.name(),
+        _ => LOOK_AT.name(),
+    };
+    let key = keys.iter().find(|key| key.name() == name).copied().unwrap_or(&LOOK_AT);
+    Fault::new(table.mark(key), error)
 }
 
 /// A camera's point of view and its axes, each of unit length and across the others. In f64, so that a camera far from

@@ -1,10 +1,14 @@
 //! [`ChapterIntegrator`]: the chapter's estimator.
 
+use std::sync::Arc;
+
 use glam::{Vec2, Vec3};
 
-use super::{Estimator, Integrator, Wave, dimension};
+use super::traits::{Estimator, Integrator, Read};
+use super::wave::{Wave, dimension};
 use crate::bxdf::BxdfFlags;
 use crate::light::LightSample;
+use crate::params::{Fault, Key, Kind, Table};
 use crate::sampling::Sampler;
 use crate::scene::Scene;
 
@@ -27,6 +31,11 @@ const BRIGHTNESS: f32 = 3.0;
 impl Integrator for ChapterIntegrator {
     fn prepare<'a>(&'a self, scene: &'a Scene) -> Box<dyn Estimator + 'a> {
         Box::new(ChapterEstimator { scene, highlight: self.highlight })
+    }
+
+    fn describe(&self) -> String {
+        let highlight = if self.highlight { " with highlight" } else { "" };
+        format!("{}{highlight}", KIND.name)
     }
 }
 
@@ -78,10 +87,6 @@ fn blinn_phong(n: Vec3, wo: Vec3, wi: Vec3) -> f32 {
     1.5 * (0.2 + 0.2 * diffuse + 0.7 * specular)
 }
 
-use super::Read;
-use crate::params::{Fault, Key, Kind, Table};
-use crate::scene::IntegratorSettings;
-
 const HIGHLIGHT: Key<bool> =
     Key::new("highlight", "whether to multiply by the Blinn-Phong factor").default(false);
 
@@ -93,6 +98,6 @@ pub(super) const KIND: Kind<Read> = Kind {
     read,
 };
 
-fn read(table: &Table) -> Result<IntegratorSettings, Fault> {
-    Ok(IntegratorSettings::Chapter { highlight: table.get(&HIGHLIGHT)? })
+fn read(table: &Table) -> Result<Arc<dyn Integrator>, Fault> {
+    Ok(Arc::new(ChapterIntegrator { highlight: table.get(&HIGHLIGHT)? }))
 }

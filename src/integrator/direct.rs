@@ -1,9 +1,12 @@
 //! [`DirectIntegrator`]: light that comes straight from the lights.
 
+use std::sync::Arc;
+
 use super::path::PathTracer;
-use super::{Estimator, Integrator};
-use crate::light::LightChoice;
-use crate::scene::{LightStrategy, Scene};
+use super::traits::{Estimator, Integrator, Read};
+use crate::light::{LightChoice, LightStrategy};
+use crate::params::{Choice, Fault, Kind, Table};
+use crate::scene::Scene;
 
 /// Radiance that is emitted, or reflected once: the sum over all lights, where nothing stands between
 /// (PBRT 3rd edition, section 14.3).
@@ -20,11 +23,11 @@ impl Integrator for DirectIntegrator {
         let (max_depth, roulette) = (1, false);
         Box::new(PathTracer::new(scene, max_depth, roulette, self.strategy, LightChoice::All))
     }
-}
 
-use super::Read;
-use crate::params::{Fault, Kind, Table};
-use crate::scene::IntegratorSettings;
+    fn describe(&self) -> String {
+        format!("{}, strategy {}", KIND.name, self.strategy.name())
+    }
+}
 
 /// `type = "direct"`
 pub(super) const KIND: Kind<Read> = Kind {
@@ -34,6 +37,6 @@ pub(super) const KIND: Kind<Read> = Kind {
     read,
 };
 
-fn read(table: &Table) -> Result<IntegratorSettings, Fault> {
-    Ok(IntegratorSettings::Direct { strategy: table.get(&LightStrategy::KEY)? })
+fn read(table: &Table) -> Result<Arc<dyn Integrator>, Fault> {
+    Ok(Arc::new(DirectIntegrator { strategy: table.get(&LightStrategy::KEY)? }))
 }

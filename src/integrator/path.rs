@@ -4,18 +4,21 @@
 //! that arrives and is emitted, p densities, w the weight of multiple importance sampling. `wave/` has what
 //! the stages work on, and the same stages for four flat Lambertian hits at a time.
 
+use std::sync::Arc;
+
 use arrayvec::ArrayVec;
 
+use super::traits::{Estimator, Integrator, Read};
 use super::wave::flat::{BLOCK, Fetched, FlatHits};
-use super::wave::{Path, PathRules, Paths, Vertices, power_heuristic};
-use super::{Estimator, Integrator, Wave, dimension};
+use super::wave::{Path, PathRules, Paths, Vertices, Wave, dimension, power_heuristic};
 use crate::accel::Hit;
 use crate::bxdf::BxdfFlags;
 use crate::geometry::Ray;
 use crate::geometry::four::four;
-use crate::light::{LightChoice, LightHit, LightSample};
+use crate::light::{LightChoice, LightHit, LightSample, LightStrategy};
+use crate::params::{Choice, Fault, Key, Kind, Table};
 use crate::sampling::{SampleId, Sampler};
-use crate::scene::{LightStrategy, Scene};
+use crate::scene::Scene;
 
 /// Unidirectional path tracing with next-event estimation: at each hit a light is sampled, and the path also
 /// finds lights by itself (PBRT 3rd edition, section 14.5.4). Both are weighed by multiple importance sampling
@@ -36,10 +39,17 @@ pub struct PathIntegrator {
     pub strategy: LightStrategy,
 }
 
+impl PathIntegrator {
+    /// Up to `max_depth` reflections, with Russian roulette and the strategy that suits each light.
+    pub const fn new(max_depth: u32) -> Self {
+        Self { max_depth, roulette: true, strategy: LightStrategy::Auto }
+    }
+}
+
 impl Default for PathIntegrator {
-    /// Five reflections, as in PBRT, with roulette.
+    /// Five reflections, as in PBRT.
     fn default() -> Self {
-        Self { max_depth: 5, roulette: true, strategy: LightStrategy::Auto }
+        Self::new(MAX_DEPTH.default_value())
     }
 }
 
@@ -47,6 +57,13 @@ impl Integrator for PathIntegrator {
     fn prepare<'a>(&'a self, scene: &'a Scene) -> Box<dyn Estimator + 'a> {
         let Self { max_depth, roulette, strategy } = *self;
         Box::new(PathTracer::new(scene, max_depth, roulette, strategy, LightChoice::One))
+    }
+
+    fn describe(&self) -> String {
+        let Self { max_depth, roulette, strategy } = *self;
+        let (name, strategy) = (KIND.name, strategy.name());
+        let roulette = if roulette { "roulette" } else { "no roulette" };
+        format!("{name}, up to {max_depth} reflections, {roulette}, strategy {strategy}")
     }
 }
 
@@ -274,10 +291,6 @@ fn scatter_one(vertices: &mut Vertices, turn: usize, (path, ray, hit): (&Path, &
     }
 }
 
-use super::Read;
-use crate::params::{Fault, Key, Kind, Table};
-use crate::scene::IntegratorSettings;
-
 /// As many as in PBRT by default.
 const MAX_DEPTH: Key<u32> =
     Key::new("max_depth", "the most times that light is reflected").default(5);
@@ -292,10 +305,10 @@ pub(super) const KIND: Kind<Read> = Kind {
     read,
 };
 
-fn read(table: &Table) -> Result<IntegratorSettings, Fault> {
-    Ok(IntegratorSettings::Path {
+fn read(table: &Table) -> Result<Arc<dyn Integrator>, Fault> {
+    Ok(Arc::new(PathIntegrator {
         max_depth: table.get(&MAX_DEPTH)?,
         roulette: table.get(&ROULETTE)?,
         strategy: table.get(&LightStrategy::KEY)?,
-    })
+    }))
 }

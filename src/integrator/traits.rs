@@ -1,12 +1,15 @@
 //! The contracts of integrators.
 
+use std::fmt::{self, Debug, Formatter};
+use std::sync::Arc;
+
 use super::wave::Wave;
 use crate::params::{Fault, Table};
 use crate::sampling::Sampler;
-use crate::scene::{IntegratorSettings, Scene};
+use crate::scene::Scene;
 
 /// How a kind of integrator is read.
-pub type Read = fn(&Table) -> Result<IntegratorSettings, Fault>;
+pub type Read = fn(&Table) -> Result<Arc<dyn Integrator>, Fault>;
 
 /// A way to compute how much light arrives along camera rays: plain settings, for any scene.
 ///
@@ -39,6 +42,41 @@ pub trait Integrator: Send + Sync {
     /// Makes the integrator ready for a scene: what follows from the scene's lights and surfaces is found
     /// once, before there are samples.
     fn prepare<'a>(&'a self, scene: &'a Scene) -> Box<dyn Estimator + 'a>;
+
+    /// What it is, with its settings, in one line for people. Two integrators with the same line count as one.
+    fn describe(&self) -> String {
+        "of another crate".to_owned()
+    }
+
+    /// The integrator as settings hold it.
+    #[doc(hidden)]
+    fn into_arc(self) -> Arc<dyn Integrator>
+    where
+        Self: Sized + 'static,
+    {
+        Arc::new(self)
+    }
+}
+
+/// As it describes itself.
+impl Debug for dyn Integrator + '_ {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str(&self.describe())
+    }
+}
+
+impl Integrator for Arc<dyn Integrator> {
+    fn prepare<'a>(&'a self, scene: &'a Scene) -> Box<dyn Estimator + 'a> {
+        (**self).prepare(scene)
+    }
+
+    fn describe(&self) -> String {
+        (**self).describe()
+    }
+
+    fn into_arc(self) -> Arc<dyn Integrator> {
+        self
+    }
 }
 
 /// An integrator that was made ready for one scene. It works on many camera rays at once, a [`Wave`], so that

@@ -6,6 +6,7 @@ mod light_sampler;
 mod point;
 mod rectangle;
 mod sky;
+mod strategy;
 mod traits;
 
 pub use area::AreaLight;
@@ -13,6 +14,7 @@ pub use distant::DistantLight;
 pub use light_sampler::{LightChoice, LightSampler};
 pub use point::PointLight;
 pub use sky::SkyLight;
+pub use strategy::LightStrategy;
 pub(crate) use traits::one_by_one;
 pub use traits::{BoundingSphere, Light, LightHit, LightSample, LightSamplesX4, Read};
 

@@ -4,6 +4,7 @@
 mod pass;
 mod samples;
 mod schedule;
+mod settings;
 mod tiles;
 mod worker;
 
@@ -15,11 +16,12 @@ use std::time::Duration;
 use crate::clock::Stopwatch;
 use crate::film::{Film, FilmContents, FilmError, Variance};
 use crate::image::Picture;
-use crate::integrator::{self, Counters, Integrator};
+use crate::integrator::{Counters, Integrator};
 use crate::sampling::{SampleSets, Sampler};
-use crate::scene::{RenderSettings, SamplerSettings, Scene, SettingsError, View};
+use crate::scene::{Scene, View};
 use pass::Pass;
 use schedule::PassSchedule;
+pub use settings::{RenderSettings, SamplerSettings, SettingsError};
 
 /// How to render. Apart from `spp`, `time`, `layers` and `cancel` none of it changes what comes out.
 #[derive(Clone, Copy)]
@@ -122,7 +124,7 @@ pub enum RenderError {
 /// see [`Rendered::complete`].
 ///
 /// ```
-/// use lobe::scene::{FilmSettings, RenderSettings, View};
+/// use lobe::scene::{FilmSettings, View};
 /// use lobe::{PerspectiveSettings, RenderOptions, Scene, Spectrum, render};
 ///
 /// let scene = Scene::builder().build()?;
@@ -138,13 +140,11 @@ pub fn render(
     options: &RenderOptions,
 ) -> Result<Rendered, RenderError> {
     let spp = options.spp.unwrap_or(settings.sampler.spp);
-    let settings =
-        RenderSettings { sampler: SamplerSettings { spp, ..settings.sampler }, ..*settings };
-    settings.sampler.check()?;
-    let sampler = sampler_from_settings(view, &settings.sampler);
-    let integrator = integrator::from_settings(&settings.integrator);
-    let sampling = Sampling { sampler: &*sampler, spp, sets: settings.sampler.sets() };
-    render_with(scene, view, &*integrator, sampling, options)
+    let samples = SamplerSettings { spp, ..settings.sampler };
+    samples.check()?;
+    let sampler = sampler_from_settings(view, &samples);
+    let sampling = Sampling { sampler: &*sampler, spp, sets: samples.sets() };
+    render_with(scene, view, &*settings.integrator, sampling, options)
 }
 
 /// A sampler, and how many of its samples a pixel gets.
@@ -154,8 +154,8 @@ pub struct Sampling<'a> {
     pub sampler: &'a dyn Sampler,
     /// Samples in each pixel, at least 1; [`RenderOptions::spp`] takes its place.
     pub spp: u32,
-    /// Into how many independent sets they are divided, of `spp / sets` samples each. Of a correlated sampler the
-    /// variance is told from the means of sets, of which it takes at least two.
+    /// Into how many independent sets they are divided, at most `spp`, of `spp / sets` samples each. The variance of a
+    /// correlated sampler is estimated from the means of its sets, of which that takes at least two.
     pub sets: u32,
 }
 
@@ -179,10 +179,11 @@ pub fn render_with(
 ) -> Result<Rendered, RenderError> {
     let start = Stopwatch::start();
     let Sampling { sampler, spp, sets } = sampling;
-    let (spp, sets) = (options.spp.unwrap_or(spp), sets.max(1));
+    let spp = options.spp.unwrap_or(spp);
     if spp == 0 {
         return Err(SettingsError::NoSamples.into());
     }
+    let sets = sets.clamp(1, spp);
     let time = options.time.filter(|_| Stopwatch::HAS_CLOCK);
     let limit = if options.spp.is_none() && time.is_some() { u32::MAX } else { spp };
     let mut schedule = PassSchedule::new(limit / sets, time);
@@ -194,50 +195,38 @@ pub fn render_with(
     let (resolution, window) = (view.film().resolution, view.film().window());
     let area = window.area() as u64;
     let shared = Mutex::new((Film::new(resolution, window, contents)?, Counters::default()));
-    let mut ended = Ended { samples_per_pixel: 0, complete: false, empty_pixels: area, threads: 0 };
-    let so_far = |ended: &Ended| {
+    let (mut samples_per_pixel, mut empty_pixels, mut threads) = (0, area, 0);
+    let so_far = |samples_per_pixel, empty_pixels, threads, complete| {
         let shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
         let (film, counters) = &*shared;
         Rendered {
             picture: film.develop(),
             counters: *counters,
-            samples_per_pixel: ended.samples_per_pixel,
-            complete: ended.complete,
-            empty_pixels: ended.empty_pixels,
+            samples_per_pixel,
+            complete,
+            empty_pixels,
             non_finite: film.non_finite(),
-            threads: ended.threads,
+            threads,
             seconds: start.seconds(),
         }
     };
     let estimator = integrator.prepare(scene);
     let estimator = &*estimator;
-    loop {
-        let Some(indices) = schedule.next() else {
-            ended.complete = true;
-            break;
-        };
-        let samples_per_pixel = indices.end * sets;
+    while let Some(indices) = schedule.next() {
+        let samples = indices.end * sets;
         let pass = Pass { scene, view, estimator, sampler, options, indices, sets, contents };
-        let pass = pass.render(&shared)?;
-        ended.threads = ended.threads.max(pass.threads);
-        ended.empty_pixels = ended.empty_pixels.min(area - pass.pixels);
-        if pass.pixels < area {
-            break;
+        let end = pass.render(&shared)?;
+        threads = threads.max(end.threads);
+        empty_pixels = empty_pixels.min(area - end.pixels);
+        if end.pixels < area {
+            return Ok(so_far(samples_per_pixel, empty_pixels, threads, false));
         }
-        ended.samples_per_pixel = samples_per_pixel;
+        samples_per_pixel = samples;
         if let Some(on_pass) = options.on_pass {
-            on_pass(&so_far(&ended));
+            on_pass(&so_far(samples_per_pixel, empty_pixels, threads, false));
         }
     }
-    Ok(so_far(&ended))
-}
-
-/// What a render knows of itself beside its film and counters.
-struct Ended {
-    samples_per_pixel: u32,
-    complete: bool,
-    empty_pixels: u64,
-    threads: usize,
+    Ok(so_far(samples_per_pixel, empty_pixels, threads, true))
 }
 
 /// The sampler that the settings ask for.

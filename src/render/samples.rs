@@ -31,7 +31,7 @@ impl Samples {
     pub fn fill(&mut self, most: usize, ids: &mut Vec<SampleId>) {
         ids.clear();
         while ids.len() < most && !self.is_empty() {
-            // The samples of one set differ in nothing but their index.
+            // Samples of one set differ in their index alone.
             let left = u32::try_from(most - ids.len()).unwrap_or(u32::MAX);
             let first = self.next;
             let count = (self.pass.end - first.index).min(left);

@@ -1,4 +1,4 @@
-//! [`Tiles`]: how the image is dealt out.
+//! [`Tiles`]: the image cut into squares, which threads take one by one.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -6,7 +6,7 @@ use glam::UVec2;
 
 use crate::image::Window;
 
-/// The tiles of a window, handed out one by one, row by row, to whoever asks next.
+/// The tiles of a window, handed out row by row to whichever thread asks next.
 pub struct Tiles {
     window: Window,
     size: u32,

@@ -17,7 +17,7 @@ const WAVE: usize = 1024;
 /// How many points estimate a reflectance that has no closed form.
 const RHO_POINTS: usize = 16;
 
-/// Renders tiles. All of its memory is taken when it is made, apart from that of foreign lobes: the arena
+/// Renders tiles. It allocates when it is made and not afterwards, except that the arena for lobes of other crates
 /// grows until it has met the hit that needs most.
 pub struct Worker<'a> {
     pass: &'a Pass<'a>,

@@ -69,12 +69,12 @@ impl SceneBuilder {
         self.add_shape(name.into(), mesh, Some(material.into()), None)
     }
 
-    /// Adds a mesh in world space that sends out light, and reflects none.
+    /// Adds a mesh in world space that emits light and reflects none.
     pub fn lamp(self, name: impl Into<String>, mesh: TriangleMesh, emission: Emission) -> Self {
         self.add_shape(name.into(), mesh, None, Some(emission))
     }
 
-    /// Adds a mesh in world space that sends out light, and reflects what the material of that name does.
+    /// Adds a mesh in world space that emits light, made of the material of that name.
     pub fn glowing_shape(
         self,
         name: impl Into<String>,

@@ -1,6 +1,4 @@
-//! What is rendered, how it is seen, and how it is sampled and lit: [`Scene`], [`View`], [`RenderSettings`].
-//!
-//! None of the three knows the others. A scene is built once, which takes the time of its tree, and can then be rendered
+//! What is rendered and how it is seen: [`Scene`] and [`View`]. Neither knows the other. A scene is built once, which takes the time of its tree, and can then be rendered
 //! in any view with any settings.
 
 mod builder;
@@ -9,12 +7,8 @@ mod view;
 
 use std::sync::Arc;
 
-pub use crate::sampling::SamplerKind;
 pub use builder::{SceneBuilder, SceneError};
-pub use settings::{
-    Emission, FilmSettings, IntegratorSettings, LightStrategy, RenderSettings, SamplerSettings,
-    SettingsError,
-};
+pub use settings::{Emission, FilmSettings};
 pub use view::{View, ViewError};
 
 use glam::Vec3;

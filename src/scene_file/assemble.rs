@@ -5,24 +5,21 @@ use std::sync::Arc;
 use glam::{Affine3A, Quat, UVec2};
 
 use super::sections::{self, SECTIONS};
-use crate::camera::CameraSettings;
-use crate::film::Window;
+use crate::camera::Camera;
+use crate::image::Window;
 use crate::light::Light;
 use crate::material::Material;
 use crate::params::{Document, Fault, Mark, Problem, Table};
+use crate::render::{RenderSettings, SamplerSettings};
 use crate::sampling::SamplerKind;
-use crate::scene::{
-    Emission, FilmSettings, IntegratorSettings, SamplerSettings, Scene, SceneBuilder, SceneError,
-};
+use crate::scene::{Emission, FilmSettings, Scene, SceneBuilder, SceneError, View};
 use crate::shape::{Load, ObjMesh, ObjReport};
 use crate::texture::Textures;
 
 /// A scene before its meshes are read. Lists are in the order of the file.
 pub struct Description {
-    camera: CameraSettings,
-    film: FilmSettings,
-    pub sampler: SamplerSettings,
-    pub integrator: IntegratorSettings,
+    view: View,
+    pub settings: RenderSettings,
     materials: Vec<(String, Arc<dyn Material>)>,
     lights: Vec<Arc<dyn Light>>,
     shapes: Vec<(String, Shape)>,
@@ -44,6 +41,7 @@ pub fn describe(document: &Document) -> Result<Description, Fault> {
     let camera = root.table(sections::CAMERA.key)?;
     let camera =
         sections::CAMERA.read(camera, |kind, table| (kind.read)(table, film.resolution))?;
+    let view = view(camera, film, document)?;
     let integrator = root.table(sections::INTEGRATOR.key)?;
     let integrator = sections::INTEGRATOR.read(integrator, |kind, table| (kind.read)(table))?;
     let mut textures = Textures::default();
@@ -60,10 +58,11 @@ pub fn describe(document: &Document) -> Result<Description, Fault> {
         |(_, table): (&str, Table)| sections::LIGHT.read(table, |kind, table| (kind.read)(table));
     let shape = |(name, table): (&str, Table)| Ok((name.to_owned(), shape(table)?));
     Ok(Description {
-        camera,
-        film,
-        sampler: sampler(root.table(sections::SAMPLER.key)?)?,
-        integrator,
+        view,
+        settings: RenderSettings {
+            sampler: sampler(root.table(sections::SAMPLER.key)?)?,
+            integrator,
+        },
         materials: all(root.tables(sections::MATERIAL.key)?, material)?,
         lights: all(root.tables(sections::LIGHT.key)?, light)?,
         shapes: all(root.tables(sections::SHAPE.key)?, shape)?,
@@ -72,6 +71,14 @@ pub fn describe(document: &Document) -> Result<Description, Fault> {
 
 fn all<T, U>(tables: Vec<T>, read: impl FnMut(T) -> Result<U, Fault>) -> Result<Vec<U>, Fault> {
     tables.into_iter().map(read).collect()
+}
+
+/// Only the crop can still be wrong: what else a view refuses, its keys have refused.
+fn view(camera: Arc<dyn Camera>, film: FilmSettings, document: &Document) -> Result<View, Fault> {
+    View::new(camera, film).map_err(|error| {
+        let keys = [sections::FILM.key, sections::CROP.name()];
+        Fault::new(document.root.follow(&keys).mark, error)
+    })
 }
 
 fn film(table: Table) -> Result<FilmSettings, Fault> {
@@ -125,25 +132,19 @@ fn shape(table: Table) -> Result<Shape, Fault> {
     })
 }
 
-/// Looks up materials, reads the meshes and builds the scene. The settings are checked before the meshes are read,
-/// which may take long.
+/// Looks up materials, reads the meshes and builds the scene.
 pub fn build(
     description: Description,
     document: &Document,
-) -> Result<(Scene, Vec<ObjReport>), Fault> {
-    let Description { camera, film, sampler, integrator, materials, lights, shapes } = description;
+) -> Result<(Scene, View, RenderSettings, Vec<ObjReport>), Fault> {
+    let Description { view, settings, materials, lights, shapes } = description;
     let fault = |error: SceneError| {
         let keys = match &error {
             SceneError::Mesh(shape, _) => vec![sections::SHAPE.key, shape],
-            SceneError::TooManyTriangles(_) => vec![sections::SHAPE.key],
-            // What only the settings together can do wrong.
-            _ => vec![sections::FILM.key, sections::CROP.name()],
+            _ => vec![sections::SHAPE.key],
         };
         Fault::new(document.root.follow(&keys).mark, error)
     };
-    let settings =
-        Scene::builder().camera(camera).film(film).sampler(sampler).integrator(integrator);
-    settings.check().map_err(fault)?;
     for (material, mark) in shapes.iter().filter_map(|(_, shape)| shape.material.as_ref()) {
         if materials.iter().all(|(known, _)| known != material) {
             let known = materials.iter().map(|(known, _)| known.as_str());
@@ -151,10 +152,10 @@ pub fn build(
             return Err(Fault { mark: *mark, problem });
         }
     }
-    let builder = lights.into_iter().fold(settings, SceneBuilder::shared_light);
+    let builder = lights.into_iter().fold(Scene::builder(), SceneBuilder::light);
     let mut builder = materials
         .into_iter()
-        .fold(builder, |builder, (name, material)| builder.shared_material(name, material));
+        .fold(builder, |builder, (name, material)| builder.material(name, material));
     let mut reports = Vec::with_capacity(shapes.len());
     for (name, Shape { load, material, emission, transform }) in shapes {
         let ObjMesh { mut mesh, report } = load()?;
@@ -162,5 +163,5 @@ pub fn build(
         mesh.transform(&transform);
         builder = builder.add_shape(name, mesh, material.map(|(name, _)| name), emission);
     }
-    Ok((builder.build().map_err(fault)?, reports))
+    Ok((builder.build().map_err(fault)?, view, settings, reports))
 }

@@ -12,13 +12,14 @@ mod overrides;
 mod sections;
 
 use std::path::Path;
-use std::time::Instant;
 
 pub use error::{Place, SceneFileError, TextProblem};
 pub use sections::SECTIONS;
 
+use crate::clock::Stopwatch;
 use crate::params::{Fault, Mark};
-use crate::scene::{IntegratorSettings, SamplerSettings, Scene};
+use crate::render::RenderSettings;
+use crate::scene::{Scene, View};
 use crate::shape::ObjReport;
 use document::Source;
 
@@ -26,6 +27,10 @@ use document::Source;
 pub struct LoadedScene {
     /// The scene.
     pub scene: Scene,
+    /// How it is seen.
+    pub view: View,
+    /// How it is sampled and lit.
+    pub settings: RenderSettings,
     /// What was noticed on the way.
     pub report: LoadReport,
 }
@@ -46,10 +51,10 @@ pub struct LoadReport {
 /// If the file cannot be read, or for what [`parse_scene`] refuses. The messages name the file by
 /// `path`.
 pub fn read_scene(path: &Path, overrides: &[&str]) -> Result<LoadedScene, SceneFileError> {
-    let start = Instant::now();
+    let start = Stopwatch::start();
     let text = read_text(path)?;
     let mut loaded = parse_scene(path, &text, overrides)?;
-    loaded.report.seconds = start.elapsed().as_secs_f64() - loaded.scene.build_seconds();
+    loaded.report.seconds = start.seconds() - loaded.scene.build_seconds();
     Ok(loaded)
 }
 
@@ -57,14 +62,11 @@ pub fn read_scene(path: &Path, overrides: &[&str]) -> Result<LoadedScene, SceneF
 ///
 /// # Errors
 /// As for [`read_scene`], but for what is wrong with names and meshes.
-pub fn read_settings(
-    path: &Path,
-    overrides: &[&str],
-) -> Result<(SamplerSettings, IntegratorSettings), SceneFileError> {
+pub fn read_settings(path: &Path, overrides: &[&str]) -> Result<RenderSettings, SceneFileError> {
     let text = read_text(path)?;
     let source = Source::new(path, &text, overrides);
     let description = source.place(assemble::describe(&source.parse()?))?;
-    Ok((description.sampler, description.integrator))
+    Ok(description.settings)
 }
 
 fn read_text(path: &Path) -> Result<String, SceneFileError> {
@@ -101,7 +103,7 @@ fn read_text(path: &Path) -> Result<String, SceneFileError> {
 /// );
 ///
 /// let loaded = parse_scene("scene.toml".as_ref(), "[sampler]\nspp = 4", &["sampler.seed=7"])?;
-/// assert_eq!(loaded.scene.sampler().seed, 7);
+/// assert_eq!(loaded.settings.sampler.seed, 7);
 /// # Ok::<(), lobe::scene_file::SceneFileError>(())
 /// ```
 ///
@@ -112,11 +114,11 @@ pub fn parse_scene(
     text: &str,
     overrides: &[&str],
 ) -> Result<LoadedScene, SceneFileError> {
-    let start = Instant::now();
+    let start = Stopwatch::start();
     let source = Source::new(path, text, overrides);
     let document = source.parse()?;
     let description = source.place(assemble::describe(&document))?;
-    let (scene, meshes) = source.place(assemble::build(description, &document))?;
-    let seconds = start.elapsed().as_secs_f64() - scene.build_seconds();
-    Ok(LoadedScene { scene, report: LoadReport { seconds, meshes } })
+    let (scene, view, settings, meshes) = source.place(assemble::build(description, &document))?;
+    let seconds = start.seconds() - scene.build_seconds();
+    Ok(LoadedScene { scene, view, settings, report: LoadReport { seconds, meshes } })
 }

@@ -2,14 +2,16 @@
 
 use glam::{UVec2, Vec3};
 
-use crate::camera::{CAMERAS, ReadCamera};
-use crate::film::{Display, FILTERS, ReadFilter};
+use crate::camera::{self, CAMERAS};
+use crate::film::{FILTERS, ReadFilter};
+use crate::image::Display;
 use crate::integrator::{self, INTEGRATORS};
 use crate::light::{self, LIGHTS};
 use crate::material::{self, MATERIALS};
 use crate::params::{AnySection, Key, Rotation, Scale, Section};
+use crate::render::SamplerSettings;
 use crate::sampling::{Make, SAMPLERS};
-use crate::scene::{FilmSettings, SamplerSettings};
+use crate::scene::FilmSettings;
 use crate::shape::{self, SHAPES};
 use crate::spectrum::Spectrum;
 use crate::texture::{self, TEXTURES};
@@ -18,7 +20,7 @@ use crate::texture::{self, TEXTURES};
 pub static SECTIONS: [&dyn AnySection; 8] =
     [&CAMERA, &FILM, &SAMPLER, &INTEGRATOR, &TEXTURE, &MATERIAL, &LIGHT, &SHAPE];
 
-pub static CAMERA: Section<ReadCamera> = Section {
+pub static CAMERA: Section<camera::Read> = Section {
     key: "camera",
     plural: "cameras",
     is_named: false,

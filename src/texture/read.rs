@@ -1,6 +1,6 @@
 //! [`TextureKey`] and [`Textures`]: how materials of scene files name their textures.
 
-use super::TextureHandle;
+use super::traits::{Texture, TextureHandle};
 use crate::params::{AnyKey, Fault, Key, Param, Problem, Table, Value};
 use crate::spectrum::Spectrum;
 
@@ -31,7 +31,7 @@ impl TextureValue for f32 {
     }
 
     fn everywhere(self) -> TextureHandle<Self> {
-        self.into()
+        TextureHandle::Constant(self)
     }
 }
 
@@ -41,7 +41,7 @@ impl TextureValue for Spectrum {
     }
 
     fn everywhere(self) -> TextureHandle<Self> {
-        self.into()
+        TextureHandle::Constant(self)
     }
 }
 
@@ -151,7 +151,7 @@ impl Textures {
         };
         let found = T::of(texture);
         // Of other textures the values are not known before they are asked.
-        let value = found.and_then(TextureHandle::constant).and_then(|value| value.to_value());
+        let value = found.and_then(|texture| texture.constant()).and_then(|value| value.to_value());
         let is_fit = value.is_none_or(|value| constant.accepts(&value));
         found.filter(|_| is_fit).cloned().map(Some).ok_or_else(|| {
             let found = format!("the texture {name:?}, {}", describe(texture));

@@ -1,9 +1,13 @@
 //! Scenes and samplers that several tests render.
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 
+use std::sync::Arc;
+
 use lobe::glam::{UVec2, Vec2, Vec3};
-use lobe::sampling::{SampleId, Sampler};
-use lobe::scene::{IntegratorSettings, RenderSettings, SamplerKind, SamplerSettings, SceneBuilder};
+use lobe::integrator::Integrator;
+use lobe::render::{RenderSettings, SamplerSettings};
+use lobe::sampling::{SampleId, Sampler, SamplerKind};
+use lobe::scene::SceneBuilder;
 use lobe::{FilmSettings, MatteMaterial, PerspectiveSettings, Scene, TriangleMesh, View};
 
 /// One sample in the middle of each pixel, so that a closed form can say what it has to be.
@@ -87,11 +91,16 @@ pub fn view(camera: &PerspectiveSettings, resolution: UVec2) -> View {
     View::perspective(camera, FilmSettings::new(resolution.x, resolution.y)).unwrap()
 }
 
+/// An integrator of any type.
+pub fn any(integrator: impl Integrator + 'static) -> Arc<dyn Integrator> {
+    Arc::new(integrator)
+}
+
 /// Settings with so many independent samples.
-pub fn independent(spp: u32, integrator: IntegratorSettings) -> RenderSettings {
+pub fn independent(spp: u32, integrator: impl Integrator + 'static) -> RenderSettings {
     let sampler =
         SamplerSettings { kind: SamplerKind::INDEPENDENT, spp, ..SamplerSettings::default() };
-    RenderSettings { sampler, integrator }
+    RenderSettings::new(sampler, integrator)
 }
 
 /// A red ball over a blue floor, for the chapter's camera; the lights are left to the test.

@@ -5,12 +5,12 @@ use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, BxdfSample, LambertianReflection}
 use lobe::geometry::{Frame, reflect, refract};
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::image::Picture;
+use lobe::integrator::PathIntegrator;
 use lobe::interaction::SurfaceInteraction;
-use lobe::light::SkyLight;
+use lobe::light::{LightStrategy, SkyLight};
 use lobe::material::Material;
-use lobe::scene::{
-    IntegratorSettings, LightStrategy, RenderSettings, SamplerKind, SamplerSettings,
-};
+use lobe::render::{RenderSettings, SamplerSettings};
+use lobe::sampling::SamplerKind;
 use lobe::{PerspectiveSettings, RenderOptions, Scene, Spectrum, render};
 
 use crate::scenes::{ball, view};
@@ -107,12 +107,12 @@ fn furnace(
     };
     let sampler =
         SamplerSettings { kind: SamplerKind::INDEPENDENT, spp: 64, ..SamplerSettings::default() };
-    let integrator = IntegratorSettings::Path { max_depth, roulette, strategy };
+    let integrator = PathIntegrator { max_depth, roulette, strategy };
     let options = RenderOptions { layers: true, ..RenderOptions::default() };
     let rendered = render(
         &scene.build().unwrap(),
         &view(&camera, UVec2::splat(32)),
-        &RenderSettings { sampler, integrator },
+        &RenderSettings::new(sampler, integrator),
         &options,
     )
     .unwrap();

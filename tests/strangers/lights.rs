@@ -2,8 +2,9 @@
 
 use lobe::Spectrum;
 use lobe::glam::{UVec2, Vec2, Vec3};
+use lobe::integrator::PathIntegrator;
 use lobe::light::{BoundingSphere, Light, LightSample, PointLight};
-use lobe::scene::{IntegratorSettings, SceneBuilder};
+use lobe::scene::SceneBuilder;
 
 use crate::scenes::{ball_over_floor, chapter_view, independent};
 use crate::statistics::{assert_alike, bands, picture};
@@ -30,7 +31,7 @@ const HERE: Vec3 = Vec3::new(3.0, 4.0, -3.0);
 const THERE: Vec3 = Vec3::new(-4.0, 3.0, -2.0);
 
 fn lit(lights: impl Fn(SceneBuilder) -> SceneBuilder) -> Vec<(f64, f64)> {
-    let settings = independent(512, IntegratorSettings::path(1));
+    let settings = independent(512, PathIntegrator::new(1));
     bands(&picture(lights(ball_over_floor()), &chapter_view(UVec2::splat(24)), &settings))
 }
 

@@ -5,10 +5,10 @@ use std::f32::consts::FRAC_1_PI;
 use lobe::bxdf::{Arena, Bsdf, LambertianReflection};
 use lobe::geometry::Ray;
 use lobe::glam::{UVec2, Vec2, Vec3};
+use lobe::integrator::PathIntegrator;
 use lobe::interaction::SurfaceInteraction;
-use lobe::light::{Light, LightHit, LightSample, SkyLight};
+use lobe::light::{Light, LightHit, LightSample, LightStrategy, SkyLight};
 use lobe::material::Material;
-use lobe::scene::{IntegratorSettings, LightStrategy};
 use lobe::{PerspectiveSettings, RenderOptions, Scene, Spectrum, TriangleMesh, render};
 
 use crate::scenes::{independent, view};
@@ -83,7 +83,7 @@ fn far_away() -> TriangleMesh {
 
 /// The chapter's camera space: from the origin along +z, image right is +x.
 fn pixels(scene: Scene, strategy: LightStrategy) -> Vec<[f32; 3]> {
-    let integrator = IntegratorSettings::Path { max_depth: 1, roulette: false, strategy };
+    let integrator = PathIntegrator { max_depth: 1, roulette: false, strategy };
     let camera = PerspectiveSettings::default();
     let view = view(&camera, UVec2::splat(8));
     let rendered =

@@ -5,8 +5,11 @@ use std::f64::consts::PI;
 use lobe::film::Filter;
 use lobe::glam::{DVec2, DVec3, UVec2, Vec3};
 use lobe::image::Picture;
-use lobe::light::{DistantLight, SkyLight};
-use lobe::scene::{Emission, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings};
+use lobe::integrator::{DirectIntegrator, Integrator, PathIntegrator};
+use lobe::light::{DistantLight, LightStrategy, SkyLight};
+use lobe::render::SamplerSettings;
+use lobe::sampling::SamplerKind;
+use lobe::scene::Emission;
 use lobe::{
     FilmSettings, MatteMaterial, PerspectiveSettings, RenderSettings, Scene, Spectrum,
     TriangleMesh, View,
@@ -18,14 +21,14 @@ use crate::statistics::{assert_mean, bands, picture};
 const STRATEGIES: [LightStrategy; 4] =
     [LightStrategy::Auto, LightStrategy::Mis, LightStrategy::Light, LightStrategy::Bsdf];
 
-fn independent(spp: u32, integrator: IntegratorSettings) -> RenderSettings {
+fn independent(spp: u32, integrator: impl Integrator + 'static) -> RenderSettings {
     let kind = SamplerKind::INDEPENDENT;
     let sampler = SamplerSettings { kind, spp, seed: 3, ..SamplerSettings::default() };
-    RenderSettings { sampler, integrator }
+    RenderSettings::new(sampler, integrator)
 }
 
-fn path(max_depth: u32, roulette: bool, strategy: LightStrategy) -> IntegratorSettings {
-    IntegratorSettings::Path { max_depth, roulette, strategy }
+fn path(max_depth: u32, roulette: bool, strategy: LightStrategy) -> PathIntegrator {
+    PathIntegrator { max_depth, roulette, strategy }
 }
 
 /// Looks down on the plane y = 0 from above: image right is +x, image up is +z.
@@ -52,7 +55,7 @@ fn a_plane_under_a_distant_light() {
             .shape("below", floor(-1.0, 10.0), "plane")
             .light(DistantLight::new(towards, Spectrum::splat(3.0)).unwrap()),
         &view(&from_above(2.0, 60.0), UVec2::splat(16)),
-        &independent(4, IntegratorSettings::direct()),
+        &independent(4, DirectIntegrator::default()),
     );
     for (place, pixel) in picture.color.iter().enumerate() {
         for (band, r) in pixel.to_array().into_iter().zip([0.5, 0.25, 1.0]) {
@@ -170,7 +173,7 @@ fn under(lamp: TriangleMesh, strategy: LightStrategy, kind: SamplerKind) -> Pict
         .shape("plane", floor(0.0, 10.0), "plane")
         .lamp("lamp", lamp, emission);
     let sampler = SamplerSettings { kind, spp: 16_384, seed: 11, replicates: 64 };
-    let settings = RenderSettings { sampler, integrator: IntegratorSettings::Direct { strategy } };
+    let settings = RenderSettings::new(sampler, DirectIntegrator { strategy });
     picture(scene, &view(&from_above(0.9, 90.0), UVec2::splat(8)), &settings)
 }
 

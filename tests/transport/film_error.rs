@@ -1,8 +1,11 @@
 //! The film states its own error: whether it is true.
 
 use lobe::glam::{UVec2, Vec3};
+use lobe::integrator::PathIntegrator;
 use lobe::light::SkyLight;
-use lobe::scene::{Emission, IntegratorSettings, SamplerKind, SamplerSettings};
+use lobe::render::SamplerSettings;
+use lobe::sampling::SamplerKind;
+use lobe::scene::Emission;
 use lobe::{RenderSettings, Spectrum, TriangleMesh};
 
 use crate::scenes::{ball_over_floor, chapter_view};
@@ -28,11 +31,11 @@ fn the_claimed_error_is_the_true_one() {
             let estimates: Vec<_> = (0..SEEDS)
                 .map(|seed| {
                     let sampler = SamplerSettings { kind, spp, seed, replicates };
-                    let integrator = IntegratorSettings::path(3);
+                    let integrator = PathIntegrator::new(3);
                     let scene = ball_over_floor()
                         .lamp("lamp", lamp.clone(), emission)
                         .light(SkyLight::new(Spectrum::splat(0.5)));
-                    let settings = RenderSettings { sampler, integrator };
+                    let settings = RenderSettings::new(sampler, integrator);
                     bands(&picture(scene, &chapter_view(UVec2::splat(32)), &settings))
                 })
                 .collect();

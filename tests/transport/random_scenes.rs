@@ -1,18 +1,18 @@
 //! A thousand scenes that nobody would build: whatever stands where, every sample is finite.
 
 use lobe::glam::{UVec2, Vec3};
-use lobe::light::{DistantLight, SkyLight};
-use lobe::scene::{
-    Emission, IntegratorSettings, LightStrategy, SamplerKind, SamplerSettings, Scene,
-};
-use lobe::scene_file::read_scene;
+use lobe::integrator::{DirectIntegrator, PathIntegrator};
+use lobe::light::{DistantLight, LightStrategy, SkyLight};
+use lobe::render::SamplerSettings;
+use lobe::sampling::SamplerKind;
+use lobe::scene::{Emission, Scene};
 use lobe::scene_file::{LoadedScene, read_scene};
 use lobe::{
     MatteMaterial, PerspectiveSettings, PointLight, RenderOptions, RenderSettings, Spectrum,
     TriangleMesh, View, render,
 };
 
-use crate::scenes::view;
+use crate::scenes::{any, view};
 
 /// SplitMix64: a generator for each scene.
 struct Rng(u64);
@@ -110,10 +110,10 @@ fn scene(trial: u64) -> (Scene, View, RenderSettings) {
         [LightStrategy::Auto, LightStrategy::Mis, LightStrategy::Light, LightStrategy::Bsdf];
     let strategy = strategies[rng.below(4)];
     let integrator = match rng.below(3) {
-        0 => IntegratorSettings::Direct { strategy },
+        0 => any(DirectIntegrator { strategy }),
         _ => {
             let (max_depth, roulette) = (rng.below(12) as u32, rng.below(2) == 0);
-            IntegratorSettings::Path { max_depth, roulette, strategy }
+            any(PathIntegrator { max_depth, roulette, strategy })
         }
     };
     // Inside of things, on them, or well away from all.
@@ -155,7 +155,7 @@ fn scene(trial: u64) -> (Scene, View, RenderSettings) {
         };
     }
     let scene = builder.build().unwrap_or_else(|error| panic!("scene {trial}: {error}"));
-    (scene, view(&camera, UVec2::splat(12)), RenderSettings { sampler, integrator })
+    (scene, view(&camera, UVec2::splat(12)), RenderSettings::new(sampler, integrator))
 }
 
 /// The scenes that come with the crate, small.

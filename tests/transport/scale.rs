@@ -2,8 +2,11 @@
 
 use lobe::glam::{UVec2, Vec3};
 use lobe::image::Picture;
+use lobe::integrator::PathIntegrator;
 use lobe::light::SkyLight;
-use lobe::scene::{Emission, IntegratorSettings, SamplerKind, SamplerSettings};
+use lobe::render::SamplerSettings;
+use lobe::sampling::SamplerKind;
+use lobe::scene::Emission;
 use lobe::{MatteMaterial, PointLight, RenderSettings, Scene, Spectrum, TriangleMesh};
 
 use crate::scenes::{chapter_camera, floor, lumpy_ball, view};
@@ -33,7 +36,7 @@ fn rendered(scale: f32, shift: f32, seed: u64) -> Picture {
             place(Vec3::new(3.0, 4.0, -3.0)),
             Spectrum::splat(20.0 * scale * scale),
         ));
-    let settings = RenderSettings { sampler, integrator: IntegratorSettings::path(4) };
+    let settings = RenderSettings::new(sampler, PathIntegrator::new(4));
     picture(scene, &view(&camera, UVec2::splat(24)), &settings)
 }
 

@@ -1,8 +1,10 @@
 //! How fast the error falls.
 
 use lobe::glam::UVec2;
+use lobe::integrator::PathIntegrator;
 use lobe::light::SkyLight;
-use lobe::scene::{IntegratorSettings, SamplerKind, SamplerSettings};
+use lobe::render::SamplerSettings;
+use lobe::sampling::SamplerKind;
 use lobe::{RenderSettings, Spectrum};
 
 use crate::scenes::{ball_over_floor, chapter_view};
@@ -36,7 +38,7 @@ fn slope(kind: SamplerKind, reference: &[(f64, f64)]) -> f64 {
 fn render(kind: SamplerKind, spp: u32, seed: u64) -> Vec<(f64, f64)> {
     let replicates = if spp > 1 << 12 { 8 } else { 2 };
     let sampler = SamplerSettings { kind, spp, seed, replicates };
-    let settings = RenderSettings { sampler, integrator: IntegratorSettings::path(5) };
+    let settings = RenderSettings::new(sampler, PathIntegrator::new(5));
     let scene = ball_over_floor().light(SkyLight::new(Spectrum::WHITE));
     bands(&picture(scene, &chapter_view(UVec2::splat(24)), &settings))
 }

@@ -3,11 +3,12 @@
 use std::error::Error;
 
 use clap::Args;
+use lobe::TriangleMesh;
 use lobe::film::Filter;
 use lobe::params::Choice;
-use lobe::scene::{IntegratorSettings, RenderSettings, SamplerSettings, View};
+use lobe::render::{RenderSettings, SamplerSettings};
+use lobe::scene::View;
 use lobe::scene_file::LoadedScene;
-use lobe::{TriangleMesh, integrator};
 
 use crate::scene::SceneArguments;
 use crate::summary::Summary;
@@ -86,7 +87,7 @@ fn add_settings(summary: &mut Summary, settings: &RenderSettings) {
         sets => format!(" in {sets} sets"),
     };
     summary.add("sampler", format!("{}, {spp} samples per pixel{sets}, seed {seed}", kind.name()));
-    summary.add("integrator", integrator(&settings.integrator));
+    summary.add("integrator", settings.integrator.describe());
 }
 
 fn filter(filter: Filter) -> String {
@@ -95,21 +96,5 @@ fn filter(filter: Filter) -> String {
         Filter::Box => name.into(),
         Filter::Gaussian { sigma, .. } => format!("{name}, radius {radius} pixels, sigma {sigma}"),
         _ => format!("{name}, radius {radius} pixels"),
-    }
-}
-
-fn integrator(settings: &IntegratorSettings) -> String {
-    let name = integrator::name(settings);
-    match *settings {
-        IntegratorSettings::Chapter { highlight: false } => name.into(),
-        IntegratorSettings::Chapter { highlight: true } => format!("{name} with highlight"),
-        IntegratorSettings::Direct { strategy } => {
-            format!("{name}, strategy {}", strategy.name())
-        }
-        IntegratorSettings::Path { max_depth, roulette, strategy } => {
-            let roulette = if roulette { "roulette" } else { "no roulette" };
-            let strategy = strategy.name();
-            format!("{name}, up to {max_depth} reflections, {roulette}, strategy {strategy}")
-        }
     }
 }

@@ -6,8 +6,8 @@
 use glam::Vec3;
 
 use super::paths::Path;
-use crate::light::{LightChoice, LightHit, LightSampler};
-use crate::scene::{LightStrategy, Scene};
+use crate::light::{LightChoice, LightHit, LightSampler, LightStrategy};
+use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 
 /// An integrator's settings, and what follows from them and the scene's lights.

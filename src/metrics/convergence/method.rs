@@ -5,7 +5,8 @@ use super::{Reference, Run};
 use crate::clock::Stopwatch;
 use crate::image::Image;
 use crate::render::{RenderError, RenderOptions, Rendered, render};
-use crate::scene::{RenderSettings, SamplerSettings, Scene, View};
+use crate::render::{RenderSettings, SamplerSettings};
+use crate::scene::{Scene, View};
 
 /// A way to render a scene: a name and a function from samples per pixel and seed to a picture.
 pub struct Method<'a> {
@@ -52,7 +53,7 @@ impl<'a> Method<'a> {
     ) -> Self {
         Self::new(name, scene.build_seconds(), move |spp, seed| {
             let sampler = SamplerSettings { spp, seed, ..settings.sampler };
-            render(scene, view, &RenderSettings { sampler, ..settings }, &options)
+            render(scene, view, &RenderSettings { sampler, ..settings.clone() }, &options)
         })
     }
 

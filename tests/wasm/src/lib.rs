@@ -13,8 +13,8 @@
 use std::time::Duration;
 
 use lobe::glam::Vec3;
+use lobe::integrator::PathIntegrator;
 use lobe::light::SkyLight;
-use lobe::scene::IntegratorSettings;
 use lobe::{CameraSettings, MatteMaterial, RenderOptions, Scene, Spectrum, TriangleMesh, render};
 
 /// The albedo of the plane, and so the mean of the picture.
@@ -30,7 +30,7 @@ fn picture() -> Result<Vec<Spectrum>, Box<dyn std::error::Error>> {
             ..CameraSettings::default()
         })
         .resolution(8, 8)
-        .integrator(IntegratorSettings::path(4))
+        .integrator(PathIntegrator::new(4))
         .material("grey", MatteMaterial::new([ALBEDO; 3]))
         .shape("plane", plane, "grey")
         .light(SkyLight::new(Spectrum::WHITE))

@@ -5,18 +5,19 @@ use std::error::Error;
 use lobe::RenderOptions;
 use lobe::image::Image;
 use lobe::metrics::convergence::{Bias, Curve, Method, Reference, Run, RunningMean};
-use lobe::scene::{
-    IntegratorSettings, LightStrategy, RenderSettings, SamplerKind, SamplerSettings,
-};
+use lobe::render::{RenderSettings, SamplerSettings};
+use lobe::sampling::SamplerKind;
 use lobe::scene_file::LoadedScene;
 
 use super::folder::Folder;
-use super::methods::with_strategy;
+use super::methods::with_changes;
 use super::plan::{Cost, Plan};
 use super::steps::Steps;
+use crate::scene::SceneArguments;
 
 /// The methods of a chart, and where its results are stored.
 pub struct Bench<'a> {
+    pub scene: &'a SceneArguments,
     pub loaded: &'a LoadedScene,
     pub methods: Vec<Method<'a>>,
     /// Settings of each method.
@@ -131,7 +132,7 @@ impl<'a> Bench<'a> {
         print.update(format!("{} {threads}", env!("CARGO_PKG_VERSION")).as_bytes());
         let settings = std::mem::take(&mut self.settings);
         for (method, settings) in std::mem::take(&mut self.methods).into_iter().zip(settings) {
-            let RenderSettings { sampler, integrator } = settings;
+            let RenderSettings { sampler, ref integrator } = settings;
             let (image, _) = method.render(4, self.loaded.settings.sampler.seed)?;
             if let Some(same) =
                 images.iter().position(|known| known.0 == sampler && known.1 == image)
@@ -145,7 +146,9 @@ impl<'a> Bench<'a> {
                 continue;
             }
             // The settings, too: a picture of few samples may not show all differences.
-            print.update(format!("{} {sampler:?} {integrator:?}", method.name()).as_bytes());
+            print.update(
+                format!("{} {sampler:?} {}", method.name(), integrator.describe()).as_bytes(),
+            );
             for band in image.pixels.iter().flat_map(|pixel| pixel.to_array()) {
                 print.update(&band.to_bits().to_le_bytes());
             }
@@ -163,16 +166,14 @@ impl<'a> Bench<'a> {
     fn truths(&self) -> [Method<'a>; 2] {
         let by = |name: &str, kind, strategy| {
             let sampler = SamplerSettings { kind, replicates: 1, ..self.loaded.settings.sampler };
-            let mut integrator = with_strategy(self.loaded.settings.integrator, strategy);
-            if let IntegratorSettings::Path { roulette, .. } = &mut integrator {
-                *roulette = false;
-            }
-            let settings = RenderSettings { sampler, integrator };
+            let changes = [strategy, "integrator.roulette=false"];
+            let integrator = with_changes(self.scene, &self.loaded.settings.integrator, &changes);
+            let settings = RenderSettings::new(sampler, integrator);
             Method::of_settings(&self.loaded.scene, &self.loaded.view, name, settings, self.options)
         };
         [
-            by("reference", SamplerKind::SOBOL, LightStrategy::Mis),
-            by("check", SamplerKind::INDEPENDENT, LightStrategy::Light),
+            by("reference", SamplerKind::SOBOL, "integrator.strategy=\"mis\""),
+            by("check", SamplerKind::INDEPENDENT, "integrator.strategy=\"light\""),
         ]
     }
 

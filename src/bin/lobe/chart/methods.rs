@@ -3,12 +3,14 @@
 use std::error::Error;
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
+use lobe::integrator::Integrator;
+use lobe::light::LightStrategy;
 use lobe::params::Choice;
-use lobe::scene::{
-    IntegratorSettings, LightStrategy, RenderSettings, SamplerKind, SamplerSettings,
-};
-use lobe::scene_file::read_settings;
+use lobe::render::{RenderSettings, SamplerSettings};
+use lobe::sampling::SamplerKind;
+use lobe::scene_file::{SceneFileError, read_settings};
 use toml::de::{DeTable, DeValue};
 
 use crate::scene::SceneArguments;
@@ -17,39 +19,45 @@ use crate::scene::SceneArguments;
 pub type Named = (String, RenderSettings);
 
 /// Each sampler with the scene's integrator; and with Sobol points each other light strategy, and roulette switched.
-pub fn usual(settings: RenderSettings) -> Vec<Named> {
-    let RenderSettings { sampler, integrator } = settings;
-    let with = |kind, integrator| RenderSettings {
-        sampler: SamplerSettings { kind, ..sampler },
-        integrator,
+/// What the scene's integrator has no key for is left out.
+pub fn usual(scene: &SceneArguments) -> Result<Vec<Named>, SceneFileError> {
+    let RenderSettings { sampler, integrator } = read_settings(&scene.path, &scene.overrides())?;
+    let of_kind = |kind: SamplerKind| {
+        let sampler = SamplerSettings { kind, ..sampler };
+        (kind.name().to_owned(), RenderSettings { sampler, integrator: integrator.clone() })
     };
-    let of_kind = |kind: SamplerKind| (kind.name().to_owned(), with(kind, integrator));
     let mut all: Vec<Named> = SamplerKind::all().map(of_kind).collect();
-    let sobol = |integrator| with(SamplerKind::SOBOL, integrator);
-    let name = SamplerKind::SOBOL.name();
-    for (other, strategy) in LightStrategy::CHOICES.iter().map(|&(name, other)| (other, name)) {
-        let changed = with_strategy(integrator, other);
-        if changed != integrator {
-            all.push((format!("{name}, {strategy}"), sobol(changed)));
+    let strategies = LightStrategy::CHOICES
+        .iter()
+        .map(|(name, _)| (format!("integrator.strategy={name:?}"), (*name).to_owned()));
+    let roulette = [(true, "roulette"), (false, "no roulette")]
+        .map(|(is_on, name)| (format!("integrator.roulette={is_on}"), name.to_owned()));
+    for (change, name) in strategies.chain(roulette) {
+        let changed = with_changes(scene, &integrator, &[&change]);
+        if changed.describe() != integrator.describe() {
+            let sampler = SamplerSettings { kind: SamplerKind::SOBOL, ..sampler };
+            let name = format!("{}, {name}", sampler.kind.name());
+            all.push((name, RenderSettings::new(sampler, changed)));
         }
     }
-    if let IntegratorSettings::Path { max_depth, roulette, strategy } = integrator {
-        let roulette_is = if roulette { "no roulette" } else { "roulette" };
-        let changed = IntegratorSettings::Path { max_depth, roulette: !roulette, strategy };
-        all.push((format!("{name}, {roulette_is}"), sobol(changed)));
-    }
-    all
+    Ok(all)
 }
 
-/// The integrator with another light strategy, if it has one.
-pub fn with_strategy(integrator: IntegratorSettings, to: LightStrategy) -> IntegratorSettings {
-    match integrator {
-        IntegratorSettings::Chapter { .. } => integrator,
-        IntegratorSettings::Direct { .. } => IntegratorSettings::Direct { strategy: to },
-        IntegratorSettings::Path { max_depth, roulette, .. } => {
-            IntegratorSettings::Path { max_depth, roulette, strategy: to }
+/// The scene's integrator with these overrides, but for those that it has no key for.
+pub fn with_changes(
+    scene: &SceneArguments,
+    integrator: &Arc<dyn Integrator>,
+    changes: &[&str],
+) -> Arc<dyn Integrator> {
+    let (mut overrides, mut changed) = (scene.overrides(), integrator.clone());
+    for &change in changes {
+        overrides.push(change);
+        match read_settings(&scene.path, &overrides) {
+            Ok(settings) => changed = settings.integrator,
+            Err(_) => drop(overrides.pop()),
         }
     }
+    changed
 }
 
 /// Reads methods from a TOML file: a table `[methods]` in which each name has a list of settings as for `--set`.

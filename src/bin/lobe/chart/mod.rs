@@ -18,7 +18,6 @@ use clap::{ArgGroup, Args, value_parser};
 use lobe::image::{Encoding, Image};
 use lobe::metrics::Errors;
 use lobe::metrics::convergence::{Method, Other};
-use lobe::scene_file::read_settings;
 use lobe::{RenderOptions, Spectrum};
 
 use crate::scene::SceneArguments;
@@ -138,7 +137,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     // Arguments are checked before anything that takes time.
     let named = match &arguments.methods {
         Some(path) => methods::read(path, file)?,
-        None => methods::usual(read_settings(&file.path, &file.overrides())?),
+        None => methods::usual(file)?,
     };
     let images: Vec<Image> =
         arguments.add.iter().map(|added| Image::read(&added.path)).collect::<Result<_, _>>()?;
@@ -156,12 +155,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         ..RenderOptions::default()
     };
     let method = |(name, settings): &methods::Named| {
-        Method::of_settings(&loaded.scene, &loaded.view, name, *settings, options)
+        Method::of_settings(&loaded.scene, &loaded.view, name, settings.clone(), options)
     };
     let mut bench = Bench {
+        scene: file,
         loaded: &loaded,
         methods: named.iter().map(method).collect(),
-        settings: named.iter().map(|(_, settings)| *settings).collect(),
+        settings: named.iter().map(|(_, settings)| settings.clone()).collect(),
         notes: Vec::new(),
         options,
         folder,
