@@ -337,8 +337,10 @@ impl Shares {
     /// The shares of two lobes or more, in proportion to these estimates but for the equal part.
     #[inline(never)]
     fn new(mut estimates: ArrayVec<f32, MAX_LOBES>) -> Self {
-        // `max` first: it takes NaN for 0.
-        estimates.iter_mut().for_each(|estimate| *estimate = estimate.max(0.0).min(1.0));
+        for estimate in &mut estimates {
+            // NaN is not above 0.
+            *estimate = if *estimate > 0.0 { estimate.min(1.0) } else { 0.0 };
+        }
         let sum: f32 = estimates.iter().sum();
         let equal = 1.0 / estimates.len() as f32;
         for estimate in &mut estimates {
