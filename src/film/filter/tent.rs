@@ -7,7 +7,7 @@ const RADIUS: Key<f32> = radius_key(1.0);
 
 /// `filter = "tent"`
 pub(super) const KIND: Kind<ReadFilter> = Kind {
-    name: "tent",
+    name: "box",
     meaning: "A straight line down to zero",
     keys: &[&RADIUS],
     read: |table| Ok(Filter::Tent { radius: table.get(&RADIUS)? }),
