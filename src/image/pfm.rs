@@ -52,7 +52,9 @@ impl Header {
             "PF" => 3,
             "Pf" => 1,
             _ => {
-                return Err(format!("it is not a PFM file: it begins with `{magic}`, not PF or Pf"));
+                return Err(format!(
+                    "it is not a PFM file: it begins with `{magic}`, not PF or Pf"
+                ));
             }
         };
         let side = |word: &str| word.parse::<u32>().ok().filter(|&side| side > 0);
