@@ -111,7 +111,7 @@ fn pfm_of_other_programs() {
 #[test]
 fn what_is_no_image_is_refused() {
     let cases: [(&str, &[u8], &str); 9] = [
-        ("bad.pfm", b"P6\n2 2\n255\n", "it is no PFM file: it begins with `P6`, not PF or Pf"),
+        ("bad.pfm", b"P6\n2 2\n255\n", "it is not a PFM file: it begins with `P6`, not PF or Pf"),
         ("bad.pfm", b"PF\n2 ", "it ends within its header"),
         (
             "bad.pfm",
@@ -125,8 +125,8 @@ fn what_is_no_image_is_refused() {
             b"PF\n4294967295 4294967295\n-1\n",
             "4294967295 x 4294967295 pixels need 221360928781435404300 bytes, not 0",
         ),
-        ("bad.png", b"PF\n", "it is no PNG file: "),
-        ("bad.exr", b"PF\n", "it is no EXR file that can be read: "),
+        ("bad.png", b"PF\n", "it is not a PNG file: "),
+        ("bad.exr", b"PF\n", "it is not a readable EXR file: "),
         ("bad.jpg", b"", "its name has to end in .exr, .pfm or .png"),
     ];
     for (name, contents, reason) in cases {

@@ -179,8 +179,7 @@ fn sort_attributes(file: &mut [u8]) -> Option<()> {
 
 /// Decodes the first layer that has colours, and its variance.
 pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
-    let unreadable =
-        |error: ::exr::error::Error| format!("it is no EXR file that can be read: {error}");
+    let unreadable = |error: ::exr::error::Error| format!("it is not a readable EXR file: {error}");
     let chunks = block::read(Cursor::new(bytes), false).map_err(unreadable)?;
     // Headers come first: a file without colours is refused before its pixels are decoded.
     let (index, colors) = chunks

@@ -51,7 +51,11 @@ impl Header {
         let bands = match magic {
             "PF" => 3,
             "Pf" => 1,
-            _ => return Err(format!("it is no PFM file: it begins with `{magic}`, not PF or Pf")),
+            _ => {
+                return Err(format!(
+                    "it is not a PFM file: it begins with `{magic}`, not PF or Pf"
+                ));
+            }
         };
         let side = |word: &str| word.parse::<u32>().ok().filter(|&side| side > 0);
         let (Some(width), Some(height)) = (side(columns), side(rows)) else {

@@ -131,7 +131,7 @@ fn push_chunk(bytes: &mut Vec<u8>, kind: &[u8; 4], data: &[u8]) {
 pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
     let image = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png)
         .decode()
-        .map_err(|error| format!("it is no PNG file: {error}"))?
+        .map_err(|error| format!("it is not a PNG file: {error}"))?
         .into_rgb32f();
     let size = UVec2::new(image.width(), image.height());
     let pixels = image.pixels().map(|pixel| Spectrum::from(pixel.0)).collect();
