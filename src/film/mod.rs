@@ -6,12 +6,14 @@
 
 mod film_sums;
 mod filter;
+mod filter_kinds;
 mod filter_sampler;
 mod first_hits;
 mod pixel_sum;
 mod variance;
 
 pub use film_sums::{Film, FilmContents, FilmError};
-pub use filter::{FILTERS, Filter, FilterError, ReadFilter};
+pub use filter::{Filter, FilterError};
+pub use filter_kinds::{FILTERS, ReadFilter};
 pub use filter_sampler::FilterSampler;
 pub use variance::Variance;

@@ -4,7 +4,7 @@ use std::fmt::{self, Debug, Formatter};
 
 use glam::UVec2;
 
-use super::{SAMPLERS, Sampler};
+use super::sampler::Sampler;
 use crate::params::Kind;
 
 /// What a sampler is made for.
@@ -27,16 +27,11 @@ pub struct Make {
     pub make: fn(&SampleSets) -> Box<dyn Sampler>,
 }
 
-/// A kind of sampler: one of [`SAMPLERS`].
+/// A kind of sampler: one of [`SAMPLERS`](super::SAMPLERS).
 #[derive(Clone, Copy)]
 pub struct SamplerKind(pub(crate) &'static Kind<Make>);
 
 impl SamplerKind {
-    /// All of them.
-    pub fn all() -> impl Iterator<Item = Self> {
-        SAMPLERS.iter().map(Self)
-    }
-
     /// Its name in scene files.
     pub const fn name(self) -> &'static str {
         self.0.name

@@ -57,3 +57,10 @@ use crate::params::Kind;
 /// All kinds of samplers.
 pub static SAMPLERS: &[Kind<Make>] =
     &[independent::KIND, stratified::KIND, sobol::KIND, blue_noise::KIND];
+
+impl SamplerKind {
+    /// All of [`SAMPLERS`].
+    pub fn all() -> impl Iterator<Item = Self> {
+        SAMPLERS.iter().map(Self)
+    }
+}

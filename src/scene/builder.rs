@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::{Emission, Scene, Shape};
+use super::model::{Scene, Shape};
+use super::settings::Emission;
 use crate::accel::Accel;
 use crate::clock::Stopwatch;
 use crate::light::{AreaLight, Light};
@@ -50,6 +51,13 @@ pub struct SceneBuilder {
     materials: BTreeMap<String, Arc<dyn Material>>,
     shapes: Vec<NewShape>,
     lights: Vec<Arc<dyn Light>>,
+}
+
+impl Scene {
+    /// An empty scene to add to.
+    pub fn builder() -> SceneBuilder {
+        SceneBuilder::default()
+    }
 }
 
 impl SceneBuilder {

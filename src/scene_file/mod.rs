@@ -10,6 +10,7 @@ mod document;
 mod error;
 mod overrides;
 mod sections;
+mod toml_tree;
 
 use std::path::Path;
 

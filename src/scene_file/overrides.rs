@@ -1,8 +1,8 @@
 //! Overrides: `KEY=VALUE` in TOML, laid over a scene file.
 
-use super::document::parse;
 use super::error::TextProblem;
 use super::sections::SECTIONS;
+use super::toml_tree::parse;
 use crate::params::{Fault, Mark, Node, Problem, Value};
 
 /// Replaces or adds the value that `text`, number `source`, gives to a key.

@@ -30,9 +30,9 @@ use modules::Files;
 const ROOMS: [&str; 22] = [
     "spectrum",
     "clock",
-    "params",
     "simd",
     "geometry",
+    "params",
     "sampling",
     "image",
     "shape",
@@ -45,9 +45,9 @@ const ROOMS: [&str; 22] = [
     "camera",
     "film",
     "scene",
-    "scene_file",
     "integrator",
     "render",
+    "scene_file",
     "metrics",
     "bin",
 ];

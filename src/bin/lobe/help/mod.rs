@@ -6,7 +6,7 @@ mod table;
 use std::error::Error;
 use std::io::{self, Write};
 
-use clap::{Args, CommandFactory};
+use clap::Args;
 use lobe::params::hint;
 use lobe::scene_file::SECTIONS;
 
@@ -33,8 +33,8 @@ pub fn topics() -> String {
     format!("Topics of `lobe help`, from the registries of what scene files can hold:\n{list}")
 }
 
-pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
-    let program = crate::Arguments::command();
+/// `program` is the whole command line.
+pub fn run(arguments: &Arguments, program: clap::Command) -> Result<(), Box<dyn Error>> {
     let topic = match arguments.topic.as_deref() {
         None => return command_help(program, &[]),
         Some(command) if program.find_subcommand(command).is_some() => {

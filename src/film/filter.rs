@@ -1,29 +1,6 @@
 //! [`Filter`]: the weight of radiance around a pixel's centre.
 
-mod blackman_harris;
-mod boxed;
-mod gaussian;
-mod tent;
-
 use glam::Vec2;
-
-use crate::params::{Fault, Key, Kind, Table};
-
-/// How a kind of filter is read.
-pub type ReadFilter = fn(&Table) -> Result<Filter, Fault>;
-
-/// All kinds of filters; the first one is the default.
-pub static FILTERS: &[Kind<ReadFilter>] =
-    &[boxed::KIND, tent::KIND, gaussian::KIND, blackman_harris::KIND];
-
-/// The key for a filter's radius, with the radius that the filter has by default.
-const fn radius_key(default: f32) -> Key<f32> {
-    Key::new("filter_radius", "where the filter ends on each axis")
-        .in_unit("pixels")
-        .above(0.0)
-        .at_most(Filter::LARGEST_RADIUS as f64)
-        .default(default)
-}
 
 /// Why a filter cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -72,6 +49,23 @@ impl Filter {
     /// The largest radius, in pixels.
     pub const LARGEST_RADIUS: f32 = 16.0;
 
+    pub(super) const GAUSSIAN_SIGMA: f32 = 0.5;
+
+    /// A tent that reaches the centres of the neighbouring pixels.
+    pub const fn tent() -> Self {
+        Self::Tent { radius: 1.0 }
+    }
+
+    /// A Gaussian with sigma 0.5 and radius 1.5.
+    pub const fn gaussian() -> Self {
+        Self::Gaussian { radius: 1.5, sigma: Self::GAUSSIAN_SIGMA }
+    }
+
+    /// A Blackman-Harris window with radius 1.5.
+    pub const fn blackman_harris() -> Self {
+        Self::BlackmanHarris { radius: 1.5 }
+    }
+
     /// Half of the filter's width on each axis, in pixels; 0.5 for the box.
     pub const fn radius(&self) -> f32 {
         match *self {
@@ -85,10 +79,10 @@ impl Filter {
     /// Its name in scene files.
     pub const fn name(&self) -> &'static str {
         match self {
-            Self::Box => boxed::KIND.name,
-            Self::Tent { .. } => tent::KIND.name,
-            Self::Gaussian { .. } => gaussian::KIND.name,
-            Self::BlackmanHarris { .. } => blackman_harris::KIND.name,
+            Self::Box => "box",
+            Self::Tent { .. } => "tent",
+            Self::Gaussian { .. } => "gaussian",
+            Self::BlackmanHarris { .. } => "blackman-harris",
         }
     }
 
@@ -124,9 +118,17 @@ impl Filter {
         }
         match *self {
             Self::Box => 1.0,
-            Self::Tent { .. } => tent::profile(x, radius),
-            Self::Gaussian { sigma, .. } => gaussian::profile(x, radius, f64::from(sigma)),
-            Self::BlackmanHarris { .. } => blackman_harris::profile(x, radius),
+            Self::Tent { .. } => 1.0 - x / radius,
+            Self::Gaussian { sigma, .. } => {
+                // exp(-a) - exp(-b) without cancellation, however flat the Gaussian is.
+                let exponent = |x: f64| 0.5 * (x / f64::from(sigma)).powi(2);
+                let (a, b) = (exponent(x), exponent(radius));
+                -(-a).exp() * (a - b).exp_m1()
+            }
+            Self::BlackmanHarris { .. } => {
+                let cosine = |k: f64| (k * std::f64::consts::PI * x / radius).cos();
+                0.35875 + 0.48829 * cosine(1.0) + 0.14128 * cosine(2.0) + 0.01168 * cosine(3.0)
+            }
         }
     }
 }

@@ -1,0 +1,149 @@
+//! [`Scene`]: shapes, materials, lights, and the tree of all triangles.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+
+use crate::accel::{Accel, Hit};
+use crate::bxdf::{Arena, Bsdf, LambertianReflection};
+use crate::geometry::Ray;
+use crate::interaction::{SurfaceInteraction, SurfacePlace};
+use crate::light::{BoundingSphere, Light};
+use crate::material::Material;
+use crate::shape::TriangleMesh;
+
+/// A checked scene, ready to be rendered: shapes, materials, lights, and the tree of all triangles. It is made by
+/// [`Scene::builder`], or read from a file by [`read_scene`](crate::scene_file::read_scene).
+///
+/// ```
+/// use lobe::glam::Vec3;
+/// use lobe::{MatteMaterial, PointLight, Scene, Spectrum, TriangleMesh};
+///
+/// let floor = TriangleMesh {
+///     positions: vec![Vec3::NEG_X, Vec3::X, Vec3::Z * 2.0],
+///     indices: vec![[0, 1, 2]],
+///     ..TriangleMesh::default()
+/// };
+/// let scene = Scene::builder()
+///     .material("clay", MatteMaterial::new([0.6, 0.3, 0.2]))
+///     .shape("floor", floor, "clay")
+///     .light(PointLight::new(Vec3::Y, Spectrum::splat(10.0)))
+///     .build()?;
+/// assert_eq!(scene.accel().triangle_count(), 1);
+/// # Ok::<(), lobe::scene::SceneError>(())
+/// ```
+pub struct Scene {
+    pub(super) shapes: Vec<Shape>,
+    pub(super) meshes: Vec<TriangleMesh>,
+    pub(super) lights: Vec<Arc<dyn Light>>,
+    /// Whether `flat_lambertian` is known for all shapes.
+    pub(super) is_flat_lambertian: bool,
+    pub(super) accel: Accel,
+    pub(super) build_seconds: f64,
+}
+
+/// A mesh's name, material and light.
+pub(super) struct Shape {
+    pub name: String,
+    pub material: Arc<dyn Material>,
+    /// Index of its area light, if it emits.
+    pub light: Option<usize>,
+    /// The constant lobe, if the shape is flat-shaded and has no other.
+    pub flat_lambertian: Option<LambertianReflection>,
+}
+
+impl Scene {
+    /// The lights.
+    pub fn lights(&self) -> &[Arc<dyn Light>] {
+        &self.lights
+    }
+
+    /// The tree of all triangles.
+    pub fn accel(&self) -> &Accel {
+        &self.accel
+    }
+
+    /// The shapes' names and meshes, in the order in which they were added.
+    pub fn shapes(&self) -> impl Iterator<Item = (&str, &TriangleMesh)> {
+        self.shapes.iter().map(|s| s.name.as_str()).zip(&self.meshes)
+    }
+
+    /// A sphere around all triangles.
+    pub fn bounding_sphere(&self) -> BoundingSphere {
+        let bounds = self.accel.bounds();
+        if bounds.is_empty() {
+            return BoundingSphere::default();
+        }
+        // Halved first: the sum of two large coordinates is larger.
+        let (min, max) = (bounds.min / 2.0, bounds.max / 2.0);
+        BoundingSphere { center: min + max, radius: (max - min).length() }
+    }
+
+    /// Index of the light that the surface at a hit is, if it emits.
+    ///
+    /// # Panics
+    /// Like [`Scene::interaction`].
+    #[inline]
+    pub fn light_at(&self, hit: &Hit) -> Option<usize> {
+        self.shapes[hit.shape as usize].light
+    }
+
+    /// Indices of the area lights.
+    pub fn lights_on_surfaces(&self) -> impl Iterator<Item = usize> {
+        self.shapes.iter().filter_map(|shape| shape.light)
+    }
+
+    /// The constant lobe of a flat-shaded surface at a hit that has no other; `None` for others and for a miss.
+    #[inline]
+    pub(crate) fn flat_lambertian(&self, hit: &Hit) -> Option<&LambertianReflection> {
+        self.shapes.get(hit.shape as usize)?.flat_lambertian.as_ref()
+    }
+
+    /// Whether [`Scene::flat_lambertian`] knows the lobe of every surface.
+    #[inline]
+    pub(crate) fn is_flat_lambertian(&self) -> bool {
+        self.is_flat_lambertian
+    }
+
+    /// The vertices of the triangle that was hit.
+    ///
+    /// # Panics
+    /// Like [`Scene::interaction`].
+    #[inline(always)]
+    pub(crate) fn corners(&self, hit: &Hit) -> [&Vec3; 3] {
+        let TriangleMesh { positions, indices, .. } = &self.meshes[hit.shape as usize];
+        let [a, b, c] = indices[hit.triangle as usize];
+        [&positions[a as usize], &positions[b as usize], &positions[c as usize]]
+    }
+
+    /// How long the tree took to build, in seconds.
+    pub fn build_seconds(&self) -> f64 {
+        self.build_seconds
+    }
+
+    /// The surface at a hit of `ray`, whose direction has unit length.
+    ///
+    /// # Panics
+    /// If `hit` is a miss, or a hit in another scene.
+    #[inline]
+    pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction<'_> {
+        let mesh = &self.meshes[hit.shape as usize];
+        let place = SurfacePlace { shape: hit.shape, triangle: hit.triangle, b: hit.b };
+        SurfaceInteraction::on_shape(mesh, place, -ray.d)
+    }
+
+    /// How the surface scatters light at a hit, whose interaction may get a shading frame from its material. This is the
+    /// one place where hits are turned into lobes.
+    ///
+    /// # Panics
+    /// Like [`Scene::interaction`].
+    #[inline]
+    pub fn bsdf<'a>(
+        &'a self,
+        hit: &Hit,
+        si: &mut SurfaceInteraction,
+        arena: &'a Arena,
+    ) -> Bsdf<'a> {
+        self.shapes[hit.shape as usize].material.compute_scattering(si, arena)
+    }
+}
