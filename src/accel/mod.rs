@@ -17,6 +17,7 @@ pub use tree::Aabb;
 
 use crate::geometry::Ray;
 use crate::shape::TriangleMesh;
+use simd::Kernel;
 use trace::{AnyHit, Batch, ClosestHit, Stack, Start};
 use tree::{Bvh, MAX_TRIANGLES};
 
@@ -130,8 +131,7 @@ impl Accel {
     /// If `hits` is not as long as `rays`.
     pub fn intersect(&self, rays: &[Ray], hits: &mut [Hit]) {
         assert_eq!(rays.len(), hits.len());
-        let bvh = &self.bvh;
-        Stack::with(|stack| self.instruction_set.run(Batch { bvh, stack, rays, answers: hits }));
+        self.run(Batch { answers: hits }, rays);
     }
 
     /// Whether each ray hits anything.
@@ -140,23 +140,25 @@ impl Accel {
     /// If `occluded` is not as long as `rays`.
     pub fn occluded(&self, rays: &[Ray], occluded: &mut [bool]) {
         assert_eq!(rays.len(), occluded.len());
-        let bvh = &self.bvh;
-        Stack::with(|stack| {
-            self.instruction_set.run(Batch { bvh, stack, rays, answers: occluded });
-        });
+        self.run(Batch { answers: occluded }, rays);
     }
 
     /// The closest hit of one ray. Of triangles at the same distance, the first counts.
     pub fn intersect1(&self, ray: &Ray) -> Hit {
-        let (bvh, start) = (&self.bvh, Start::ROOT);
-        let found =
-            Stack::with(|stack| self.instruction_set.run(ClosestHit { bvh, stack, ray, start }));
-        Hit::from_found(bvh, found)
+        Hit::from_found(&self.bvh, self.run(ClosestHit(Start::ROOT), ray))
     }
 
     /// Whether one ray hits anything.
     pub fn occluded1(&self, ray: &Ray) -> bool {
-        let (bvh, start) = (&self.bvh, Start::ROOT);
-        Stack::with(|stack| self.instruction_set.run(AnyHit { bvh, stack, ray, start }))
+        self.run(AnyHit(Start::ROOT), ray)
+    }
+
+    #[inline(always)]
+    fn run<K: Kernel<Data = Bvh, Scratch = Stack>>(
+        &self,
+        kernel: K,
+        input: &K::Input,
+    ) -> K::Output {
+        Stack::with(|stack| self.instruction_set.run(kernel, input, &self.bvh, stack))
     }
 }

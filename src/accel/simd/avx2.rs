@@ -101,14 +101,27 @@ impl Lanes for Avx2 {
 
     const USES_PACKETS: bool = true;
 
+    const SKIPS_EMPTY: bool = true;
+
     #[inline(always)]
-    fn call<K: Kernel>(kernel: K) -> K::Output {
+    fn call<K: Kernel>(
+        kernel: K,
+        input: &K::Input,
+        data: &K::Data,
+        scratch: &mut K::Scratch,
+    ) -> K::Output {
+        #[inline(never)]
         #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-        fn with_features<K: Kernel>(kernel: K) -> K::Output {
-            kernel.run::<Avx2>()
+        fn with_features<K: Kernel>(
+            kernel: K,
+            input: &K::Input,
+            data: &K::Data,
+            scratch: &mut K::Scratch,
+        ) -> K::Output {
+            kernel.run::<Avx2>(input, data, scratch)
         }
         // SAFETY: the processor has AVX2, by the promise of the type.
-        unsafe { with_features(kernel) }
+        unsafe { with_features(kernel, input, data, scratch) }
     }
 
     comparisons! {

@@ -108,13 +108,19 @@ impl InstructionSet {
 
     /// Runs a kernel with these instructions.
     #[inline(always)]
-    pub(in crate::accel) fn run<K: Kernel>(self, kernel: K) -> K::Output {
+    pub(in crate::accel) fn run<K: Kernel>(
+        self,
+        kernel: K,
+        input: &K::Input,
+        data: &K::Data,
+        scratch: &mut K::Scratch,
+    ) -> K::Output {
         match self.0 {
             #[cfg(target_arch = "x86_64")]
-            Known::Avx512 => Avx512::call(kernel),
+            Known::Avx512 => Avx512::call(kernel, input, data, scratch),
             #[cfg(target_arch = "x86_64")]
-            Known::Avx2 => Avx2::call(kernel),
-            _ => Portable::call(kernel),
+            Known::Avx2 => Avx2::call(kernel, input, data, scratch),
+            _ => Portable::call(kernel, input, data, scratch),
         }
     }
 }

@@ -56,9 +56,6 @@ pub fn compress(
     ids: &mut [u32; LANES],
     distances: &mut [f32; LANES],
 ) {
-    if mask == 0 {
-        return;
-    }
     // Bit 3 of `flip` swaps the halves.
     let is_swapped = flip & 8 != 0;
     let from_ids = if is_swapped { [from_ids[1], from_ids[0]] } else { from_ids };

@@ -86,9 +86,25 @@ impl Lanes for Portable {
 
     const USES_PACKETS: bool = false;
 
+    const SKIPS_EMPTY: bool = true;
+
     #[inline(always)]
-    fn call<K: Kernel>(kernel: K) -> K::Output {
-        kernel.run::<Self>()
+    fn call<K: Kernel>(
+        kernel: K,
+        input: &K::Input,
+        data: &K::Data,
+        scratch: &mut K::Scratch,
+    ) -> K::Output {
+        #[inline(never)]
+        fn out_of_line<K: Kernel>(
+            kernel: K,
+            input: &K::Input,
+            data: &K::Data,
+            scratch: &mut K::Scratch,
+        ) -> K::Output {
+            kernel.run::<Portable>(input, data, scratch)
+        }
+        out_of_line(kernel, input, data, scratch)
     }
 
     #[inline(always)]

@@ -32,7 +32,7 @@ impl Answer for Hit {
 
     #[inline(always)]
     fn of_ray<L: Lanes>(bvh: &Bvh, stack: &mut Stack, ray: &Ray) -> Self {
-        Self::from_found(bvh, L::call(ClosestHit { bvh, stack, ray, start: Start::ROOT }))
+        Self::from_found(bvh, L::call(ClosestHit(Start::ROOT), ray, bvh, stack))
     }
 }
 
@@ -59,27 +59,26 @@ impl Answer for bool {
 
     #[inline(always)]
     fn of_ray<L: Lanes>(bvh: &Bvh, stack: &mut Stack, ray: &Ray) -> Self {
-        L::call(AnyHit { bvh, stack, ray, start: Start::ROOT })
+        L::call(AnyHit(Start::ROOT), ray, bvh, stack)
     }
 }
 
 /// The answer of each ray of a slice.
 pub struct Batch<'a, A> {
-    pub bvh: &'a Bvh,
-    pub stack: &'a mut Stack,
-    pub rays: &'a [Ray],
     /// As many as rays.
     pub answers: &'a mut [A],
 }
 
 impl<A: Answer> Kernel for Batch<'_, A> {
+    type Input = [Ray];
+    type Data = Bvh;
+    type Scratch = Stack;
     type Output = ();
 
     #[inline(always)]
-    fn run<L: Lanes>(self) {
-        let Self { bvh, stack, rays, answers } = self;
+    fn run<L: Lanes>(self, rays: &[Ray], bvh: &Bvh, stack: &mut Stack) {
         let chunk = MAX_PACKETS * LANES;
-        for (rays, answers) in rays.chunks(chunk).zip(answers.chunks_mut(chunk)) {
+        for (rays, answers) in rays.chunks(chunk).zip(self.answers.chunks_mut(chunk)) {
             trace_chunk::<L, A>(bvh, stack, rays, answers);
         }
     }

@@ -27,79 +27,69 @@ impl Start {
 /// A ray's hit, with the id of the triangle.
 pub type Found = Option<(TriangleHit, u32)>;
 
-/// The closest hit of a ray.
-pub struct ClosestHit<'a> {
-    pub bvh: &'a Bvh,
-    pub stack: &'a mut Stack,
-    pub ray: &'a Ray,
-    pub start: Start,
-}
+/// The closest hit of a ray, from some place of the tree on.
+pub struct ClosestHit(pub Start);
 
-impl Kernel for ClosestHit<'_> {
-    type Output = Found;
+/// Whether a ray hits anything, from some place of the tree on.
+pub struct AnyHit(pub Start);
 
-    #[inline(always)]
-    fn run<L: Lanes>(self) -> Found {
-        let Self { bvh, stack, ray, start } = self;
-        match closest::<L, false>(bvh, stack, ray, start) {
-            Ok(found) => found,
-            Err(Undecided) => L::call(ClosestHitExact { bvh, stack, ray, start }),
-        }
-    }
-}
-
-/// As [`ClosestHit`], with the scalar test for every candidate. Apart from it, since it hardly ever runs.
-struct ClosestHitExact<'a> {
-    bvh: &'a Bvh,
-    stack: &'a mut Stack,
-    ray: &'a Ray,
-    start: Start,
-}
-
-impl Kernel for ClosestHitExact<'_> {
-    type Output = Found;
-
-    #[inline(always)]
-    fn run<L: Lanes>(self) -> Found {
-        closest::<L, true>(self.bvh, self.stack, self.ray, self.start).unwrap_or(None)
-    }
-}
-
-/// Whether a ray hits anything.
-pub struct AnyHit<'a> {
-    pub bvh: &'a Bvh,
-    pub stack: &'a mut Stack,
-    pub ray: &'a Ray,
-    pub start: Start,
-}
-
-impl Kernel for AnyHit<'_> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn run<L: Lanes>(self) -> bool {
-        let Self { bvh, stack, ray, start } = self;
-        match any::<L, false>(bvh, stack, ray, start) {
-            Ok(found) => found,
-            Err(Undecided) => L::call(AnyHitExact { bvh, stack, ray, start }),
-        }
-    }
-}
+/// As [`ClosestHit`], with the scalar test for every candidate. A function of its own, since it hardly ever runs.
+struct ClosestHitExact(Start);
 
 /// As [`AnyHit`], with the scalar test for every candidate.
-struct AnyHitExact<'a> {
-    bvh: &'a Bvh,
-    stack: &'a mut Stack,
-    ray: &'a Ray,
-    start: Start,
+struct AnyHitExact(Start);
+
+impl Kernel for ClosestHit {
+    type Input = Ray;
+    type Data = Bvh;
+    type Scratch = Stack;
+    type Output = Found;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) -> Found {
+        match closest::<L, false>(ray, bvh, stack, self.0) {
+            Ok(found) => found,
+            Err(Undecided) => L::call(ClosestHitExact(self.0), ray, bvh, stack),
+        }
+    }
 }
 
-impl Kernel for AnyHitExact<'_> {
+impl Kernel for ClosestHitExact {
+    type Input = Ray;
+    type Data = Bvh;
+    type Scratch = Stack;
+    type Output = Found;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) -> Found {
+        closest::<L, true>(ray, bvh, stack, self.0).unwrap_or(None)
+    }
+}
+
+impl Kernel for AnyHit {
+    type Input = Ray;
+    type Data = Bvh;
+    type Scratch = Stack;
     type Output = bool;
 
     #[inline(always)]
-    fn run<L: Lanes>(self) -> bool {
-        any::<L, true>(self.bvh, self.stack, self.ray, self.start).unwrap_or(false)
+    fn run<L: Lanes>(self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) -> bool {
+        match any::<L, false>(ray, bvh, stack, self.0) {
+            Ok(found) => found,
+            Err(Undecided) => L::call(AnyHitExact(self.0), ray, bvh, stack),
+        }
+    }
+}
+
+impl Kernel for AnyHitExact {
+    type Input = Ray;
+    type Data = Bvh;
+    type Scratch = Stack;
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) -> bool {
+        any::<L, true>(ray, bvh, stack, self.0).unwrap_or(false)
     }
 }
 
@@ -110,9 +100,9 @@ struct Undecided;
 /// Without, only the nearest does in the end, and nearly always passes.
 #[inline(always)]
 fn closest<L: Lanes, const EXACT: bool>(
+    ray: &Ray,
     bvh: &Bvh,
     stack: &mut Stack,
-    ray: &Ray,
     start: Start,
 ) -> Result<Found, Undecided> {
     let sheared = ShearedRay::new(ray);
@@ -169,9 +159,9 @@ fn closest<L: Lanes, const EXACT: bool>(
 /// only the first does.
 #[inline(always)]
 fn any<L: Lanes, const EXACT: bool>(
+    ray: &Ray,
     bvh: &Bvh,
     stack: &mut Stack,
-    ray: &Ray,
     start: Start,
 ) -> Result<bool, Undecided> {
     let sheared = ShearedRay::new(ray);

@@ -51,6 +51,9 @@ impl Stack {
         distances: L,
         flip: u32,
     ) -> usize {
+        if L::SKIPS_EMPTY && mask == 0 {
+            return len;
+        }
         let (ids, to_distances) = self.room(len);
         distances.compress_children(mask, children, flip, ids, to_distances);
         len + mask.count_ones() as usize
@@ -66,6 +69,9 @@ impl Stack {
         distances: L,
         flip: u32,
     ) -> usize {
+        if L::SKIPS_EMPTY && mask == 0 {
+            return len;
+        }
         let (ids, to_distances) = self.room(len);
         distances.compress_slots(mask, first, flip, ids, to_distances);
         len + mask.count_ones() as usize
