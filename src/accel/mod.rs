@@ -159,6 +159,6 @@ impl Accel {
         kernel: K,
         input: &K::Input,
     ) -> K::Output {
-        Stack::with(|stack| self.instruction_set.run(kernel, input, &self.bvh, stack))
+        Stack::with(|stack| self.instruction_set.run(&self.bvh, stack, input, kernel))
     }
 }

@@ -105,23 +105,23 @@ impl Lanes for Avx2 {
 
     #[inline(always)]
     fn call<K: Kernel>(
-        kernel: K,
-        input: &K::Input,
         data: &K::Data,
         scratch: &mut K::Scratch,
+        input: &K::Input,
+        kernel: K,
     ) -> K::Output {
         #[inline(never)]
         #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
         fn with_features<K: Kernel>(
-            kernel: K,
-            input: &K::Input,
             data: &K::Data,
             scratch: &mut K::Scratch,
+            input: &K::Input,
+            kernel: K,
         ) -> K::Output {
             kernel.run::<Avx2>(input, data, scratch)
         }
         // SAFETY: the processor has AVX2, by the promise of the type.
-        unsafe { with_features(kernel, input, data, scratch) }
+        unsafe { with_features(data, scratch, input, kernel) }
     }
 
     comparisons! {

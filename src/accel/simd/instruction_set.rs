@@ -110,17 +110,17 @@ impl InstructionSet {
     #[inline(always)]
     pub(in crate::accel) fn run<K: Kernel>(
         self,
-        kernel: K,
-        input: &K::Input,
         data: &K::Data,
         scratch: &mut K::Scratch,
+        input: &K::Input,
+        kernel: K,
     ) -> K::Output {
         match self.0 {
             #[cfg(target_arch = "x86_64")]
-            Known::Avx512 => Avx512::call(kernel, input, data, scratch),
+            Known::Avx512 => Avx512::call(data, scratch, input, kernel),
             #[cfg(target_arch = "x86_64")]
-            Known::Avx2 => Avx2::call(kernel, input, data, scratch),
-            _ => Portable::call(kernel, input, data, scratch),
+            Known::Avx2 => Avx2::call(data, scratch, input, kernel),
+            _ => Portable::call(data, scratch, input, kernel),
         }
     }
 }

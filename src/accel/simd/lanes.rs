@@ -93,10 +93,10 @@ pub trait Lanes: Vector {
 
     /// Runs a kernel in a function of its own that is compiled for this vector's instructions.
     fn call<K: Kernel>(
-        kernel: K,
-        input: &K::Input,
         data: &K::Data,
         scratch: &mut K::Scratch,
+        input: &K::Input,
+        kernel: K,
     ) -> K::Output;
 
     fn load(x: &[f32; LANES]) -> Self;

@@ -90,21 +90,21 @@ impl Lanes for Portable {
 
     #[inline(always)]
     fn call<K: Kernel>(
-        kernel: K,
-        input: &K::Input,
         data: &K::Data,
         scratch: &mut K::Scratch,
+        input: &K::Input,
+        kernel: K,
     ) -> K::Output {
         #[inline(never)]
         fn out_of_line<K: Kernel>(
-            kernel: K,
-            input: &K::Input,
             data: &K::Data,
             scratch: &mut K::Scratch,
+            input: &K::Input,
+            kernel: K,
         ) -> K::Output {
             kernel.run::<Portable>(input, data, scratch)
         }
-        out_of_line(kernel, input, data, scratch)
+        out_of_line(data, scratch, input, kernel)
     }
 
     #[inline(always)]

@@ -32,7 +32,7 @@ impl Answer for Hit {
 
     #[inline(always)]
     fn of_ray<L: Lanes>(bvh: &Bvh, stack: &mut Stack, ray: &Ray) -> Self {
-        Self::from_found(bvh, L::call(ClosestHit(Start::ROOT), ray, bvh, stack))
+        Self::from_found(bvh, L::call(bvh, stack, ray, ClosestHit(Start::ROOT)))
     }
 }
 
@@ -59,7 +59,7 @@ impl Answer for bool {
 
     #[inline(always)]
     fn of_ray<L: Lanes>(bvh: &Bvh, stack: &mut Stack, ray: &Ray) -> Self {
-        L::call(AnyHit(Start::ROOT), ray, bvh, stack)
+        L::call(bvh, stack, ray, AnyHit(Start::ROOT))
     }
 }
 

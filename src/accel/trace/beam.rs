@@ -99,11 +99,11 @@ fn trace_singly<L: Lanes>(
         rays &= rays - 1;
         let ray = &packet.ray(i);
         if any_hit {
-            if L::call(AnyHit(start), ray, bvh, stack) {
+            if L::call(bvh, stack, ray, AnyHit(start)) {
                 packet.set_hit(i, f32::NEG_INFINITY, [0.0; 3], 0);
                 any = true;
             }
-        } else if let Some((hit, id)) = L::call(ClosestHit(start), ray, bvh, stack) {
+        } else if let Some((hit, id)) = L::call(bvh, stack, ray, ClosestHit(start)) {
             any |= packet.set_hit(i, hit.t, hit.b, id);
         }
     }

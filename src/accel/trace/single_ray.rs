@@ -49,7 +49,7 @@ impl Kernel for ClosestHit {
     fn run<L: Lanes>(self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) -> Found {
         match closest::<L, false>(ray, bvh, stack, self.0) {
             Ok(found) => found,
-            Err(Undecided) => L::call(ClosestHitExact(self.0), ray, bvh, stack),
+            Err(Undecided) => L::call(bvh, stack, ray, ClosestHitExact(self.0)),
         }
     }
 }
@@ -76,7 +76,7 @@ impl Kernel for AnyHit {
     fn run<L: Lanes>(self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) -> bool {
         match any::<L, false>(ray, bvh, stack, self.0) {
             Ok(found) => found,
-            Err(Undecided) => L::call(AnyHitExact(self.0), ray, bvh, stack),
+            Err(Undecided) => L::call(bvh, stack, ray, AnyHitExact(self.0)),
         }
     }
 }
