@@ -1,24 +1,27 @@
-//! Traces rays from files against a mesh and says how many hit, and how fast.
+//! Traces rays from files against a mesh and reports how many hit, and how fast.
 //!
-//! `cargo run --release --example trace_rays -- MESH.obj FILE.rays... [--threads N] [--mode closest|any|batch|any-batch] [--check N]`
+//! `cargo run --release --example trace_rays -- MESH.obj FILE.rays... [--threads N] [--mode closest|any|batch|any-batch]
+//! [--isa portable|avx2|avx512] [--check N]`
 //!
-//! A ray file is a flat array of rays, each 8 little-endian f32: origin, t_min, direction, t_max. Each
-//! file is traced nine times; a line gives rays, hits, the sum of t over the hits (0 where any hit counts), and the
-//! median and best of millions of rays per second. With `--check` every N-th ray is also tested against all
-//! triangles one by one, and the line after says whether the tree gave the same.
+//! A ray file is a flat array of rays, each 8 little-endian f32: origin, t_min, direction, t_max. Each file is traced
+//! nine times. A line gives the number of rays and hits, the sum of t over the hits (0 in the modes that ask for any
+//! hit), and the median and best of millions of rays per second.
+//!
+//! `--isa` builds the tree for an instruction set and traces with it; the default is the fastest that the processor has.
+//! `--check` also tests every N-th ray against all triangles one by one, and reports for how many the tree gave the same.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use lobe::TriangleMesh;
-use lobe::accel::{Accel, Hit};
+use lobe::accel::{Accel, Hit, InstructionSet};
 use lobe::geometry::Ray;
 use lobe::glam::Vec3;
 use lobe::shape::{ShearedRay, TriangleHit, read_obj};
 
 const REPETITIONS: usize = 9;
-/// Rays in one call of `batch`: what a renderer's wave holds.
+/// Rays per call in the batch modes: as many as a renderer's wave has.
 const BATCH: usize = 1024;
 
 #[derive(Clone, Copy)]
@@ -34,11 +37,13 @@ struct Options {
     rays: Vec<PathBuf>,
     threads: usize,
     mode: Mode,
+    isa: InstructionSet,
     check: Option<usize>,
 }
 
 fn options() -> Result<Options, Box<dyn Error>> {
     let (mut files, mut threads, mut mode, mut check) = (Vec::new(), 1, Mode::Closest, None);
+    let mut isa = InstructionSet::fastest();
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
@@ -49,6 +54,10 @@ fn options() -> Result<Options, Box<dyn Error>> {
             "--check" => {
                 check = arguments.next().and_then(|n| n.parse().ok()).filter(|&n| n > 0);
                 check.ok_or("--check needs a number of at least 1")?;
+            }
+            "--isa" => {
+                let name = arguments.next().ok_or("--isa needs portable, avx2 or avx512")?;
+                isa = name.parse().map_err(|error| format!("--isa: {error}"))?;
             }
             "--mode" => {
                 mode = match arguments.next().as_deref() {
@@ -69,12 +78,13 @@ fn options() -> Result<Options, Box<dyn Error>> {
     }
     if files.len() < 2 {
         return Err(
-            "usage: trace_rays MESH.obj FILE.rays... [--threads N] [--mode closest|any|batch|any-batch] [--check N]"
+            "usage: trace_rays MESH.obj FILE.rays... [--threads N] [--mode closest|any|batch|any-batch] \
+             [--isa portable|avx2|avx512] [--check N]"
                 .into(),
         );
     }
     let rays = files.split_off(1);
-    Ok(Options { mesh: files.remove(0), rays, threads, mode, check })
+    Ok(Options { mesh: files.remove(0), rays, threads, mode, isa, check })
 }
 
 fn read_rays(path: &Path) -> Result<Vec<Ray>, Box<dyn Error>> {
@@ -92,7 +102,7 @@ fn ray(bytes: &[u8; 32]) -> Ray {
     Ray { o: vector(0), t_min: number(3), d: vector(4), t_max: number(7) }
 }
 
-/// Hits and the sum of their t.
+/// Number of hits, and the sum of their t.
 fn count(hits: impl Iterator<Item = Hit>) -> (usize, f64) {
     hits.filter(Hit::is_hit).fold((0, 0.0), |(n, sum), hit| (n + 1, sum + f64::from(hit.t)))
 }
@@ -122,7 +132,7 @@ fn trace(accel: &Accel, rays: &[Ray], mode: Mode) -> (usize, f64) {
     }
 }
 
-/// How many of the rays the tree answers as a loop over all triangles does.
+/// For how many of the rays the tree gives the same answers as a loop over all triangles.
 fn same_as_loop(accel: &Accel, mesh: &TriangleMesh, rays: &[&Ray]) -> usize {
     let is_same = |ray: &&&Ray| {
         let sheared = ShearedRay::new(ray);
@@ -142,12 +152,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let options = options()?;
     let mesh = [read_obj(&options.mesh)?.mesh];
     let start = Instant::now();
-    let accel = Accel::build(&mesh);
+    let accel = Accel::build_for(options.isa, &mesh);
     let seconds = start.elapsed().as_secs_f64();
     let (triangles, nodes) = (accel.triangle_count(), accel.node_count());
     let bytes = accel.memory() as f64 / triangles as f64;
     println!(
-        "lobe build {seconds:.3} s, {triangles} triangles, {nodes} nodes, {bytes:.1} bytes a triangle"
+        "lobe build {seconds:.3} s, {triangles} triangles, {nodes} nodes, {bytes:.1} bytes per triangle, {}",
+        accel.instruction_set()
     );
     for path in &options.rays {
         let rays = read_rays(path)?;
@@ -168,7 +179,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             seconds.push(start.elapsed().as_secs_f64());
         }
         seconds.sort_by(f64::total_cmp);
-        // PREFIX.camera.rays is "camera".
+        // `PREFIX.camera.rays` is named "camera".
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         let kind = stem.rsplit('.').next().unwrap_or_default();
         let name = match options.mode {

@@ -17,7 +17,7 @@ use lobe::image::Window;
 use lobe::integrator::{ChapterIntegrator, DirectIntegrator, Integrator, PathIntegrator};
 use lobe::light::SkyLight;
 use lobe::render::{Rendered, Sampling, render_with};
-use lobe::scene::{SceneBuilder, ViewError};
+use lobe::scene::{Emission, SceneBuilder, ViewError};
 use lobe::{FilmSettings, PointLight, RenderOptions, Scene, Spectrum, TriangleMesh, View, render};
 use scenes::{Middle, any, ball_over_floor, chapter_camera, floor, independent};
 
@@ -86,6 +86,34 @@ fn only_a_lens_uses_its_sample() {
         let ray = |lens| camera.generate_ray(UVec2::ONE, Vec2::splat(0.5), lens);
         let same = ray(Vec2::splat(0.1)) == ray(Vec2::splat(0.8));
         assert_eq!(same, !camera.has_lens(), "{}", camera.describe());
+    }
+}
+
+/// A lens far out of focus blurs an edge: the half of it that lies before a lamp sees the lamp, for each kind of camera
+/// with a lens. Seen to fail with the samples of the lens left at zero.
+#[test]
+fn a_lens_is_sampled() {
+    let lamp =
+        TriangleMesh::parallelogram(Vec3::new(-9.0, -9.0, 2.0), Vec3::X * 9.0, Vec3::Y * 18.0);
+    let emission = Emission { radiance: Spectrum::WHITE, two_sided: true };
+    let scene = Scene::builder().lamp("left", lamp, emission).build().unwrap();
+    let [lens_radius, focal_distance] = [0.5, 1e9];
+    let perspective =
+        PerspectiveSettings { fov: 1e-3, lens_radius, focal_distance, ..Default::default() };
+    let flat =
+        OrthographicSettings { extent: 1e-3, lens_radius, focal_distance, ..Default::default() };
+    let cameras: [Arc<dyn Camera>; 2] = [
+        Arc::new(PerspectiveCamera::new(&perspective, UVec2::ONE).unwrap()),
+        Arc::new(OrthographicCamera::new(&flat, UVec2::ONE).unwrap()),
+    ];
+    for camera in cameras {
+        let what = camera.describe();
+        let view = View::new(camera, FilmSettings::new(1, 1)).unwrap();
+        let settings = independent(4096, PathIntegrator::default());
+        let rendered = render(&scene, &view, &settings, &RenderOptions::default()).unwrap();
+        let [share, ..] = rendered.picture.color[0].to_array();
+        // Five standard errors of a fair coin.
+        assert!((share - 0.5).abs() < 5.0 * 0.5 / 64.0, "{what}: {share}");
     }
 }
 

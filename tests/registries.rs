@@ -24,6 +24,10 @@ fn keys(section: &dyn AnySection, kind: &Kind<()>) -> Vec<&'static dyn AnyKey> {
 }
 
 fn value(key: &dyn AnyKey) -> String {
+    // Four equal numbers are an empty crop.
+    if key.name() == "crop" {
+        return "[0, 0, 1, 1]".into();
+    }
     key.default_text().filter(|default| default != "none").unwrap_or_else(|| key.example())
 }
 

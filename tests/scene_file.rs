@@ -250,13 +250,13 @@ fn unknown_keys() {
         // A message is one line, whatever the text.
         (
             "[camera]\n\"a\\nb\" = 3",
-            "s.toml:2:1: unknown key `a\\nb` in [camera]; expected `type`, `eye`, `look_at`, `up`, `fov`, `lens_radius` or `focal_distance`",
+            "s.toml:2:1: unknown key `a\\nb` in [camera]; expected `type`, `eye`, `look_at`, `up`, `handedness`, `fov`, `lens_radius` or `focal_distance`",
         ),
         ("[camera]\nfvo = 3", "s.toml:2:1: unknown key `fvo` in [camera]; did you mean `fov`?"),
         ("[camrea]", "s.toml:1:2: unknown key `camrea` in the scene; did you mean `camera`?"),
         (
             "camera = { eye = \"é\", width = 2 }",
-            "s.toml:1:23: unknown key `width` in [camera]; expected `type`, `eye`, `look_at`, `up`, `fov`, `lens_radius` or `focal_distance`",
+            "s.toml:1:23: unknown key `width` in [camera]; expected `type`, `eye`, `look_at`, `up`, `handedness`, `fov`, `lens_radius` or `focal_distance`",
         ),
         (
             "[film]\n  Display = 1",
@@ -398,7 +398,7 @@ fn wrong_types() {
         ),
         (
             "[integrator]\ntype = \"bdpt\"",
-            "s.toml:2:8: `integrator.type` is \"bdpt\", expected \"chapter\", \"direct\" or \"path\"",
+            "s.toml:2:8: `integrator.type` is \"bdpt\", expected \"path\", \"direct\" or \"chapter\"",
         ),
         (
             "[material.m]\ntype = \"matte\"\nkd = true",

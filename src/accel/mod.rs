@@ -1,55 +1,137 @@
-//! Rays against all triangles of a scene: the tree that obvhs builds, and the way rays walk it.
+//! Rays against all triangles of a scene: [`Accel`].
 //!
-//! [`Accel`] answers one ray at a time or a batch; callers that can should use the batches, which find what
-//! neighbouring rays have in common. Both use the widest instructions that the processor has, see [`Path`].
+//! Four rooms, each of which knows only those before it, but `trace` not `build`:
+//! - `simd`: sixteen f32 at a time, with the widest instructions of the processor ([`InstructionSet`]);
+//! - `tree`: the data, a bounding volume hierarchy with sixteen children per node;
+//! - `build`: from meshes to that tree, with obvhs;
+//! - `trace`: rays through that tree, one at a time or in beams.
 
-// For SIMD instructions in `lanes`, what they load in `triangles`, and the way to them in `path`.
-#![allow(unsafe_code)]
-
-mod aabb;
-mod batch;
-mod beam;
-mod binary;
 mod build;
-mod bundle;
-mod collapse;
-mod edges;
-mod frustum;
-mod hit;
-mod lanes;
-mod layout;
-mod needle;
-mod node;
-mod packet;
-mod parallel;
-mod part;
-mod path;
-mod slabs;
-mod sort;
-mod source;
-mod split;
-mod stack;
-mod top;
-mod triangles;
-mod walk;
+mod simd;
+mod trace;
+mod tree;
 
-pub use aabb::Aabb;
-pub use build::Accel;
-pub use hit::Hit;
-pub use path::Path;
+pub use simd::{InstructionSet, InstructionSetError};
+pub use trace::Hit;
+pub use tree::Aabb;
 
 use crate::geometry::Ray;
-use stack::Stack;
-use walk::{Found, Start};
+use crate::shape::TriangleMesh;
+use simd::Kernel;
+use trace::{AnyHit, Batch, ClosestHit, Stack, Start};
+use tree::{Bvh, MAX_TRIANGLES};
+
+/// The triangles of a scene in a bounding volume hierarchy (BVH), which answers what rays hit.
+///
+/// Rays are asked about one at a time ([`intersect1`](Self::intersect1), [`occluded1`](Self::occluded1)) or as a slice
+/// ([`intersect`](Self::intersect), [`occluded`](Self::occluded)). Slices are faster where neighbouring rays are similar,
+/// as a camera's are. Both give the same hits to the bit, and those are what a loop over all triangles with
+/// [`ShearedRay::intersect`](crate::shape::ShearedRay::intersect) gives.
+///
+/// ```
+/// use lobe::TriangleMesh;
+/// use lobe::accel::{Accel, Hit};
+/// use lobe::geometry::Ray;
+/// use lobe::glam::Vec3;
+///
+/// // One triangle in the plane z = 2.
+/// let mesh = TriangleMesh {
+///     positions: vec![Vec3::new(0.0, 0.0, 2.0), Vec3::new(1.0, 0.0, 2.0), Vec3::new(0.0, 1.0, 2.0)],
+///     indices: vec![[0, 1, 2]],
+///     ..TriangleMesh::default()
+/// };
+/// let accel = Accel::build(&[mesh]);
+///
+/// // One ray.
+/// let ray = Ray::new(Vec3::new(0.25, 0.5, 0.0), Vec3::Z);
+/// let hit = accel.intersect1(&ray);
+/// assert!(hit.is_hit());
+/// assert_eq!((hit.t, hit.shape, hit.triangle), (2.0, 0, 0));
+/// assert_eq!(hit.b, [0.25, 0.25, 0.5]);
+///
+/// // A batch of a thousand rays, half of which miss.
+/// let rays: Vec<Ray> =
+///     (0..1000).map(|i| Ray::new(Vec3::new(i as f32 / 500.0, 0.0, 0.0), Vec3::Z)).collect();
+/// let mut hits = vec![Hit::MISS; rays.len()];
+/// accel.intersect(&rays, &mut hits);
+/// assert_eq!(hits.iter().filter(|hit| hit.is_hit()).count(), 501);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Accel {
+    bvh: Bvh,
+    instruction_set: InstructionSet,
+}
 
 impl Accel {
+    /// The most triangles that a tree can be built over. One more is the sentinel of empty slots.
+    pub const MOST_TRIANGLES: usize = MAX_TRIANGLES - 1;
+
+    /// Builds the tree over all triangles of all meshes, for the fastest instruction set, on as many threads as the
+    /// system offers. The tree does not depend on their number. Triangles without area are left out: no ray can hit
+    /// them. The meshes must have passed [`TriangleMesh::check`].
+    ///
+    /// # Panics
+    /// If there are more than [`Accel::MOST_TRIANGLES`].
+    pub fn build(meshes: &[TriangleMesh]) -> Self {
+        Self::build_for(InstructionSet::fastest(), meshes)
+    }
+
+    /// As [`Accel::build`], for an instruction set of choice. Leaves hold as many triangles as it tests at once, so the tree
+    /// may differ from one to another.
+    ///
+    /// # Panics
+    /// If there are more than [`Accel::MOST_TRIANGLES`].
+    pub fn build_for(instruction_set: InstructionSet, meshes: &[TriangleMesh]) -> Self {
+        let count: usize = meshes.iter().map(|mesh| mesh.indices.len()).sum();
+        assert!(count <= Self::MOST_TRIANGLES, "{count} triangles are more than a tree can hold");
+        let bvh = build::build(meshes, build::available_threads(), instruction_set.leaf_lanes());
+        Self { bvh, instruction_set }
+    }
+
+    /// The box around all triangles.
+    pub fn bounds(&self) -> Aabb {
+        self.bvh.bounds
+    }
+
+    /// Number of triangles that can be hit.
+    pub fn triangle_count(&self) -> usize {
+        self.bvh.leaves.triangle_count()
+    }
+
+    /// Number of nodes of the tree.
+    pub fn node_count(&self) -> usize {
+        self.bvh.nodes.len()
+    }
+
+    /// Most nodes on the way from the root to a leaf.
+    pub fn depth(&self) -> usize {
+        self.bvh.depth
+    }
+
+    /// Bytes of the tree, with its copy of the triangles.
+    pub fn memory(&self) -> usize {
+        self.bvh.memory()
+    }
+
+    /// The instruction set that rays are traced with.
+    pub fn instruction_set(&self) -> InstructionSet {
+        self.instruction_set
+    }
+
+    /// Traces rays through the same tree with another instruction set, which may be slower than
+    /// [building](Accel::build_for) the tree for it.
+    #[must_use]
+    pub fn with_instruction_set(self, instruction_set: InstructionSet) -> Self {
+        Self { instruction_set, ..self }
+    }
+
     /// The closest hit of each ray.
     ///
     /// # Panics
     /// If `hits` is not as long as `rays`.
     pub fn intersect(&self, rays: &[Ray], hits: &mut [Hit]) {
         assert_eq!(rays.len(), hits.len());
-        Stack::with(|stack| self.answer_hits(stack, rays, hits));
+        self.run(Batch { answers: hits }, rays);
     }
 
     /// Whether each ray hits anything.
@@ -58,34 +140,25 @@ impl Accel {
     /// If `occluded` is not as long as `rays`.
     pub fn occluded(&self, rays: &[Ray], occluded: &mut [bool]) {
         assert_eq!(rays.len(), occluded.len());
-        Stack::with(|stack| self.answer_occluded(stack, rays, occluded));
+        self.run(Batch { answers: occluded }, rays);
     }
 
-    /// The closest hit of one ray. Of two at the same distance, the one of the first triangle counts.
+    /// The closest hit of one ray. Of triangles at the same distance, the first counts.
     pub fn intersect1(&self, ray: &Ray) -> Hit {
-        self.hit(Stack::with(|stack| self.closest_of_one(stack, ray, Start::ROOT)))
+        Hit::from_found(&self.bvh, self.run(ClosestHit(Start::ROOT), ray))
     }
 
     /// Whether one ray hits anything.
     pub fn occluded1(&self, ray: &Ray) -> bool {
-        Stack::with(|stack| self.any_of_one(stack, ray, Start::ROOT))
+        self.run(AnyHit(Start::ROOT), ray)
     }
 
-    /// A hit as the outside sees it.
-    #[inline]
-    fn hit(&self, found: Found) -> Hit {
-        let Some((hit, number)) = found else { return Hit::MISS };
-        let (shape, triangle) = self.triangle_of(number);
-        Hit { t: hit.t, b: hit.b, shape, triangle }
-    }
-
-    /// The mesh of a triangle, and its number there.
-    #[inline]
-    fn triangle_of(&self, number: u32) -> (u32, u32) {
-        let shape = match &self.shapes[..] {
-            [_] => 0,
-            shapes => shapes.partition_point(|&first| first <= number) - 1,
-        };
-        (shape as u32, number - self.shapes[shape])
+    #[inline(always)]
+    fn run<K: Kernel<Data = Bvh, Scratch = Stack>>(
+        &self,
+        kernel: K,
+        input: &K::Input,
+    ) -> K::Output {
+        Stack::with(|stack| self.instruction_set.run(&self.bvh, stack, input, kernel))
     }
 }

@@ -23,7 +23,7 @@
 //! use lobe::geometry::Ray;
 //! use lobe::glam::{UVec2, Vec2, Vec3};
 //! use lobe::scene::{FilmSettings, View};
-//! use lobe::{RenderOptions, Scene, Spectrum, light::SkyLight, render};
+//! use lobe::{RenderSettings, RenderOptions, Scene, Spectrum, light::SkyLight, render};
 //!
 //! /// Equidistant fisheye: the angle from +z grows with the distance from the middle of the image.
 //! struct Fisheye(UVec2);

@@ -51,7 +51,7 @@ fn size(resolution: UVec2) -> String {
 /// ```
 /// use lobe::glam::Vec3;
 /// use lobe::scene::{FilmSettings, View};
-/// use lobe::{PerspectiveSettings, RenderOptions, Scene, light::SkyLight, render};
+/// use lobe::{RenderSettings, PerspectiveSettings, RenderOptions, Scene, light::SkyLight, render};
 ///
 /// let scene = Scene::builder().light(SkyLight::new([0.2, 0.4, 0.8].into())).build()?;
 /// let film = FilmSettings::new(16, 9);

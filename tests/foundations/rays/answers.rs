@@ -1,7 +1,7 @@
 //! What rays are answered: by a loop over all triangles, and by the tree in all its forms.
 
 use lobe::TriangleMesh;
-use lobe::accel::{Accel, Hit, Path};
+use lobe::accel::{Accel, Hit, InstructionSet};
 use lobe::geometry::Ray;
 use lobe::glam::Vec3;
 use lobe::shape::ShearedRay;
@@ -65,13 +65,13 @@ pub fn assert_single(accel: &Accel, ray: &Ray, truth: &Hit, what: &str) {
 pub fn assert_answers(accel: &Accel, truth: &Loop, rays: &[Ray], what: &str) {
     let truths: Vec<Hit> = rays.iter().map(|ray| truth.closest(ray)).collect();
     let order: Vec<usize> = (0..rays.len()).collect();
-    for path in Path::available() {
-        let accel = accel.clone().with_path(path);
-        assert_eq!(accel.path(), path);
+    for set in InstructionSet::available() {
+        let accel = accel.clone().with_instruction_set(set);
+        assert_eq!(accel.instruction_set(), set);
         for (trial, (ray, truth)) in rays.iter().zip(&truths).enumerate() {
-            assert_single(&accel, ray, truth, &format!("{what}, {path:?}, trial {trial}"));
+            assert_single(&accel, ray, truth, &format!("{what}, {set}, trial {trial}"));
         }
-        assert_batch(&accel, rays, &order, &truths, &format!("{what}, {path:?}"));
+        assert_batch(&accel, rays, &order, &truths, &format!("{what}, {set}"));
     }
 }
 

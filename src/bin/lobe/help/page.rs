@@ -39,7 +39,8 @@ edges = [[0.0, 0.0, 10.0], [10.0, 0.0, 0.0]]
 
 - **Names.** `NAME` in `[material.NAME]` is yours. Materials name textures, shapes name materials. A key that takes a
   texture's name takes a constant in its place; the range is that of constants. Textures may only name textures above them.
-- **Space** is left-handed, as in PBRT: with x to the right and y up, z points away from you. The outside of a surface is
+- **Space** is left-handed, as in PBRT: with x to the right and y up, z points away from you. Worlds that were made in
+  right-handed programs are seen unmirrored with `handedness = \"right\"` in `[camera]`. The outside of a surface is
   where the cross product of two edges points, from the first corner to the second and to the third. Coordinates go up
   to 1e12 scene units.
 - **Transforms** of a shape: it is first scaled, then rotated, then translated, in whatever order the keys stand.

@@ -1,0 +1,243 @@
+//! [`Frustum`]: a beam of rays, against the boxes of a node and the triangles of a leaf.
+
+use super::packet::Packet;
+use crate::accel::simd::{LANES, Lanes, Mask, splat3};
+use crate::accel::tree::{Bvh, Leaf, Node};
+
+/// The frustum around a beam of one to [`MAX_PACKETS`] packets: the space between four side planes and two ends.
+///
+/// Relative to the origin of the first ray, each ray is a line x = a + s z with |s| at most 1, since z is the largest axis of
+/// its direction; y likewise. The largest x of all rays is a convex function of z, so the line between its values at
+/// both ends bounds it.
+pub struct Frustum<L> {
+    /// The axes that become x, y and z.
+    axes: [usize; 3],
+    /// Origin of the first ray.
+    base: [L; 3],
+    /// By how much boxes and triangles are enlarged, as a bound on rounding errors.
+    pub padding: L,
+    /// Smallest and largest z.
+    ends: [L; 2],
+    /// Whether the directions are negative along z.
+    backwards: bool,
+    /// Lane `i ^ flip` of the boxes becomes lane i, so that those the rays meet first come last.
+    pub flip: u32,
+    /// Side planes around all packets.
+    sides: Sides,
+    /// Side planes around each.
+    of_packets: [Sides; MAX_PACKETS],
+}
+
+/// Most packets of a beam.
+pub const MAX_PACKETS: usize = 4;
+
+/// Bounds of x and of y as functions of z.
+#[derive(Clone, Copy)]
+struct Sides {
+    low: [Line; 2],
+    high: [Line; 2],
+}
+
+/// x = a + s z.
+#[derive(Clone, Copy)]
+struct Line {
+    a: f32,
+    s: f32,
+}
+
+impl Line {
+    #[inline(always)]
+    fn at<L: Lanes>(&self, z: L) -> L {
+        L::splat(self.a).add(L::splat(self.s).mul(z))
+    }
+
+    /// The smallest x between two z.
+    #[inline(always)]
+    fn min<L: Lanes>(&self, [low, high]: [L; 2]) -> L {
+        self.at(if self.s < 0.0 { high } else { low })
+    }
+
+    /// The largest x between two z.
+    #[inline(always)]
+    fn max<L: Lanes>(&self, [low, high]: [L; 2]) -> L {
+        self.at(if self.s < 0.0 { low } else { high })
+    }
+}
+
+impl Sides {
+    /// From the smallest and largest x at the first end, x at the second, y at the first, and y at the second.
+    #[inline(always)]
+    fn new([min, max]: [[f32; 4]; 2], first_end: f32, per_length: f32) -> Self {
+        let line = |near: f32, far: f32| {
+            let s = (far - near) * per_length;
+            Line { a: near - s * first_end, s }
+        };
+        Self {
+            low: [line(min[0], min[1]), line(min[2], min[3])],
+            high: [line(max[0], max[1]), line(max[2], max[3])],
+        }
+    }
+}
+
+impl<L: Lanes> Frustum<L> {
+    /// The frustum of aligned packets; none if it is so wide that fewer than `min_per_leaf` rays come to a leaf of mean
+    /// area.
+    #[inline(always)]
+    pub fn new<const N: usize>(
+        packets: &[Packet<L>; N],
+        bvh: &Bvh,
+        min_per_leaf: f32,
+    ) -> Option<Self> {
+        let first = &packets[0];
+        let [x, y, z] = first.o;
+        let base = [x.lane(0), y.lane(0), z.lane(0)];
+        let splat_base = splat3(base);
+        let mut farthest = L::splat(0.0);
+        let mut start = first.o[2];
+        for packet in packets {
+            let [x, y, z] = packet.o;
+            farthest = farthest.max(x.abs().max(y.abs()).max(z.abs()));
+            start = if first.backwards { start.max(z) } else { start.min(z) };
+        }
+        // Planes, boxes and the triangle test each take a few roundings of numbers no larger than the sum.
+        let padding = 32.0 * f32::EPSILON * (bvh.largest_coordinate + farthest.reduce_max());
+        let z = first.axes[2];
+        let low = bvh.bounds.min[z] - base[2] - padding;
+        let high = bvh.bounds.max[z] - base[2] + padding;
+        let ends = if first.backwards {
+            [low.max(end(packets, splat_base[2])), high.min(start.reduce_max() - base[2])]
+        } else {
+            [low.max(start.reduce_min() - base[2]), high.min(end(packets, splat_base[2]))]
+        };
+        let length = ends[1] - ends[0];
+        let per_length = if length > f32::MIN_POSITIVE { 1.0 / length } else { 0.0 };
+        let mut of_packets =
+            [Sides { low: [Line { a: 0.0, s: 0.0 }; 2], high: [Line { a: 0.0, s: 0.0 }; 2] };
+                MAX_PACKETS];
+        let (mut min, mut max) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4]);
+        for (packet, sides) in packets.iter().zip(&mut of_packets) {
+            let (near_x, far_x) = at_ends(packet, 0, splat_base, ends);
+            let (near_y, far_y) = at_ends(packet, 1, splat_base, ends);
+            let extremes = L::reduce_min_max([near_x, far_x, near_y, far_y]);
+            *sides = Sides::new(extremes, ends[0], per_length);
+            for i in 0..4 {
+                min[i] = if extremes[0][i] < min[i] { extremes[0][i] } else { min[i] };
+                max[i] = if extremes[1][i] > max[i] { extremes[1][i] } else { max[i] };
+            }
+        }
+        let span = |i: usize| max[i] - min[i];
+        let area = span(0).max(span(1)) * span(2).max(span(3));
+        let rays = (N * LANES) as f32;
+        // Rays that all end before they reach the scene enter no box.
+        let is_narrow = area * min_per_leaf <= rays * bvh.mean_leaf_area || ends[0] > ends[1];
+        is_narrow.then(|| Self {
+            axes: first.axes,
+            base: splat_base,
+            padding: L::splat(padding),
+            ends: [L::splat(ends[0]), L::splat(ends[1])],
+            backwards: first.backwards,
+            flip: first.octant() << 1 ^ (LANES as u32 - 1),
+            sides: Sides::new([min, max], ends[0], per_length),
+            of_packets,
+        })
+    }
+
+    /// Moves the far end to the farthest of the rays' nearest hits.
+    #[inline(always)]
+    pub fn shorten<const N: usize>(&mut self, packets: &[Packet<L>; N]) {
+        let end = L::splat(end(packets, self.base[2]));
+        if self.backwards {
+            self.ends[0] = self.ends[0].max(end);
+        } else {
+            self.ends[1] = self.ends[1].min(end);
+        }
+    }
+
+    /// Where the beam ends, to be compared with the distances of [`Frustum::lanes_met`].
+    #[inline(always)]
+    pub fn end(&self) -> f32 {
+        if self.backwards { -self.ends[0].lane(0) } else { self.ends[1].lane(0) }
+    }
+
+    /// The lanes whose boxes the beam may enter, flipped by `flip`, so that far children come first; and how far along z
+    /// they begin, for [`super::stack::Stack::push_slots`].
+    #[inline(always)]
+    pub fn lanes_met(&self, node: &Node) -> (Mask, L) {
+        let ends = self.extent(node, 2);
+        let in_ends = ends[0].le(self.ends[1]) & self.ends[0].le(ends[1]);
+        let met = in_ends & self.overlaps(node, 0, ends) & self.overlaps(node, 1, ends);
+        let near = if self.backwards { L::splat(-0.0).sub(ends[1]) } else { ends[0] };
+        (L::flip_mask(met, self.flip), near)
+    }
+
+    /// The lanes of the triangles of a leaf that the rays of one packet may hit.
+    #[inline(always)]
+    pub fn candidates(&self, leaf: Leaf, packet: usize) -> Mask {
+        let sides = &self.of_packets[packet % MAX_PACKETS];
+        let z = leaf.vertices::<L>(self.axes[2]).sub(self.base[2]);
+        let corners = leaf.corners::<L::Indices>();
+        leaf.lanes()
+            & self.between_sides(leaf, 0, z, sides, corners)
+            & self.between_sides(leaf, 1, z, sides, corners)
+    }
+
+    /// The lanes of triangles that are not beyond a side plane in x (`i` = 0) or y.
+    #[inline(always)]
+    fn between_sides(
+        &self,
+        leaf: Leaf,
+        i: usize,
+        z: L,
+        sides: &Sides,
+        corners: [L::Indices; 3],
+    ) -> Mask {
+        let x = leaf.vertices::<L>(self.axes[i]).sub(self.base[i]);
+        // How far inside either plane each vertex is, and the largest of each triangle.
+        let above = max_of_corners(x.sub(sides.low[i].at(z)), corners);
+        let below = max_of_corners(sides.high[i].at(z).sub(x), corners);
+        let limit = L::splat(0.0).sub(self.padding);
+        limit.le(above) & limit.le(below)
+    }
+
+    /// The padded extents of the children along an axis.
+    #[inline(always)]
+    fn extent(&self, node: &Node, i: usize) -> [L; 2] {
+        let axis = self.axes[i];
+        let low = L::load(&node.planes[axis % 3]).flip(self.flip);
+        let high = L::load(&node.planes[axis % 3 + 3]).flip(self.flip);
+        [low.sub(self.base[i]).sub(self.padding), high.sub(self.base[i]).add(self.padding)]
+    }
+
+    /// The lanes of children that are not beyond a side plane in x (`i` = 0) or y.
+    #[inline(always)]
+    fn overlaps(&self, node: &Node, i: usize, ends: [L; 2]) -> Mask {
+        let [low, high] = self.extent(node, i);
+        self.sides.low[i].min(ends).le(high) & low.le(self.sides.high[i].max(ends))
+    }
+}
+
+/// x (`i` = 0) or y of all rays at two z, all relative to `base`.
+#[inline(always)]
+fn at_ends<L: Lanes>(packet: &Packet<L>, i: usize, base: [L; 3], ends: [f32; 2]) -> (L, L) {
+    let (o, z) = (packet.o[i].sub(base[i]), packet.o[2].sub(base[2]));
+    let slope = L::splat(0.0).sub(packet.shear[i]);
+    let near = o.add(slope.mul(L::splat(ends[0]).sub(z)));
+    let far = o.add(slope.mul(L::splat(ends[1]).sub(z)));
+    (near, far)
+}
+
+/// Where the last of all rays ends along z, relative to `base`: the largest, or the smallest if they run backwards.
+#[inline(always)]
+fn end<L: Lanes, const N: usize>(packets: &[Packet<L>; N], base: L) -> f32 {
+    let mut end = packets[0].end(base);
+    for packet in &packets[1..] {
+        end = if packet.backwards { end.min(packet.end(base)) } else { end.max(packet.end(base)) };
+    }
+    if packets[0].backwards { end.reduce_min() } else { end.reduce_max() }
+}
+
+/// The largest value of each triangle's vertices.
+#[inline(always)]
+fn max_of_corners<L: Lanes>(vertices: L, [a, b, c]: [L::Indices; 3]) -> L {
+    vertices.permute(a).max(vertices.permute(b).max(vertices.permute(c)))
+}

@@ -1,0 +1,106 @@
+//! [`Slabs`]: one ray against the boxes of a node.
+
+use glam::Vec3A;
+
+use crate::accel::simd::{LANES, Lanes, Mask, splat3};
+use crate::accel::tree::Node;
+use crate::geometry::Ray;
+use crate::geometry::float::gamma;
+
+/// A ray prepared for boxes.
+///
+/// The triangle test rounds, so a ray may hit a triangle whose box it just misses. Therefore every box is padded by a
+/// bound on that error, and no hit is lost. The padding is added to the ray's origin: once for the planes where it
+/// enters boxes, once for those where it leaves.
+pub struct Slabs<L> {
+    origin_near: [L; 3],
+    origin_far: [L; 3],
+    inverse_near: [L; 3],
+    inverse_far: [L; 3],
+    /// Index of the planes where the ray enters and leaves, on each axis.
+    near: [usize; 3],
+    far: [usize; 3],
+    t_min: L,
+    t_max: L,
+    /// `t_max` of every lane: boxes that are entered later are skipped.
+    pub end: f32,
+    /// Lane `i ^ flip` of the boxes becomes lane i, so that those the ray meets first come last.
+    pub flip: u32,
+    /// The same, with those that the ray meets first coming first.
+    pub flip_near_first: u32,
+}
+
+/// Factor by which t is enlarged where a ray leaves a box, for the rounding of t itself (Ize 2013).
+const TOLERANCE: f32 = 1.0 + 2.0 * gamma(3);
+
+impl<L: Lanes> Slabs<L> {
+    #[inline(always)]
+    pub fn new(ray: &Ray, largest_coordinate: f32) -> Self {
+        // Moving the corners to the ray's origin and shearing them costs up to four roundings of
+        // numbers no larger than the distance from the origin to the corner.
+        let reach = largest_coordinate + ray.o.abs().max_element();
+        let padding = Vec3A::splat(4.0 * f32::EPSILON * reach).copysign(ray.d.into());
+        let o = Vec3A::from(ray.o);
+        let inverse = Vec3A::ONE / Vec3A::from(ray.d);
+        // By the sign bit, so that -0 counts as negative.
+        let negative = Vec3A::from(ray.d).is_negative_bitmask();
+        let is_negative = [0, 1, 2].map(|axis| negative as usize >> axis & 1);
+        Self {
+            origin_near: splat3((o + padding).to_array()),
+            origin_far: splat3((o - padding).to_array()),
+            inverse_near: splat3(inverse.to_array()),
+            inverse_far: splat3((inverse * TOLERANCE).to_array()),
+            near: [0, 1, 2].map(|axis| axis + 3 * is_negative[axis]),
+            far: [0, 1, 2].map(|axis| axis + 3 - 3 * is_negative[axis]),
+            t_min: L::splat(ray.t_min),
+            t_max: L::splat(ray.t_max * TOLERANCE),
+            end: ray.t_max * TOLERANCE,
+            // Two slots share an octant, hence the shift.
+            flip: negative << 1 ^ (LANES as u32 - 1),
+            flip_near_first: negative << 1,
+        }
+    }
+
+    /// Shortens the ray to a nearer hit.
+    #[inline(always)]
+    pub fn shorten(&mut self, t_max: f32) {
+        self.end = t_max * TOLERANCE;
+        self.t_max = L::splat(self.end);
+    }
+
+    /// Where the ray enters and leaves each child; it misses those that it leaves before it enters.
+    ///
+    /// The slab test of Ize 2013, "Robust BVH Ray Traversal". 0 · ∞ is NaN if the ray runs within a plane of the box. It is
+    /// the first operand of `max` and `min`, which then return the second: the interval stays as it is.
+    #[inline(always)]
+    fn interval(&self, node: &Node) -> (L, L) {
+        let enter = |axis: usize| {
+            let plane = L::load(&node.planes[self.near[axis] % 6]);
+            plane.sub(self.origin_near[axis]).mul(self.inverse_near[axis])
+        };
+        let leave = |axis: usize| {
+            let plane = L::load(&node.planes[self.far[axis] % 6]);
+            plane.sub(self.origin_far[axis]).mul(self.inverse_far[axis])
+        };
+        (
+            enter(0).max(enter(1).max(enter(2).max(self.t_min))),
+            leave(0).min(leave(1).min(leave(2).min(self.t_max))),
+        )
+    }
+
+    /// The slots whose boxes the ray meets.
+    #[inline(always)]
+    pub fn slots_met(&self, node: &Node) -> Mask {
+        let (enter, leave) = self.interval(node);
+        enter.le(leave)
+    }
+
+    /// The lanes whose boxes the ray meets, flipped by `flip`, so that far children come first; and where it enters each,
+    /// for [`super::stack::Stack::push_children`].
+    #[inline(always)]
+    pub fn lanes_met(&self, node: &Node) -> (Mask, L) {
+        let (enter, leave) = self.interval(node);
+        let (enter, leave) = (enter.flip(self.flip), leave.flip(self.flip));
+        (L::flip_mask(enter.le(leave), self.flip), enter)
+    }
+}

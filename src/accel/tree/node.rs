@@ -1,0 +1,109 @@
+//! [`Node`], and the encoding of its children.
+
+use super::aabb::Aabb;
+use crate::accel::simd::LANES;
+
+/// The boxes of up to sixteen children, and references to them.
+///
+/// A child's slot tells roughly where it lies: the upper three bits of the slot are its octant of the node, x lowest,
+/// and two slots share an octant. So a ray that runs in the positive direction of all axes meets the slots about in
+/// their order. Any other ray meets slot `i ^ flip` as the i-th, where `flip` has the bits of the axes whose direction
+/// is negative.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub struct Node {
+    /// The smallest x, y and z of each child's box, then the largest; +∞ and -∞ in empty slots.
+    pub planes: [[f32; LANES]; 6],
+    /// [`Child`] of each slot, encoded.
+    pub children: [u32; LANES],
+}
+
+/// A child, which takes 32 bits in a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Child {
+    /// Index of a node.
+    Node(u32),
+    /// Index of a leaf, and how many vertices it has.
+    Leaf { index: u32, vertices: usize },
+}
+
+const LEAF: u32 = 1 << 31;
+const VERTICES_SHIFT: u32 = 27;
+/// Leaf indices are below this.
+const MAX_LEAVES: u32 = 1 << VERTICES_SHIFT;
+/// Most triangles of a tree. Leaves are addressed by the cache line, and one with a single triangle takes two.
+pub const MAX_TRIANGLES: usize = MAX_LEAVES as usize / 2;
+
+impl Child {
+    /// Sentinel for empty slots: the first leaf. Only NaN rays reach its NaN triangle.
+    pub const EMPTY: u32 = LEAF;
+
+    /// Adds offsets to the index of a node or leaf, for a tree that is appended to others.
+    pub fn offset(bits: u32, nodes: usize, leaves: usize) -> u32 {
+        match bits {
+            Self::EMPTY => bits,
+            bits if bits & LEAF == 0 => bits + nodes as u32,
+            bits => bits + leaves as u32,
+        }
+    }
+
+    /// Encodes a leaf of 1 to 16 vertices.
+    pub fn pack_leaf(index: usize, vertices: usize) -> u32 {
+        debug_assert!((1..=LANES).contains(&vertices) && index < MAX_LEAVES as usize);
+        LEAF | (vertices as u32 - 1) << VERTICES_SHIFT | index as u32
+    }
+
+    /// Decodes a child.
+    #[inline(always)]
+    pub fn unpack(bits: u32) -> Self {
+        if bits & LEAF == 0 {
+            return Self::Node(bits);
+        }
+        let (index, vertices) = Self::unpack_leaf(bits);
+        Self::Leaf { index, vertices }
+    }
+
+    /// Index and number of vertices of a child that is a leaf.
+    #[inline(always)]
+    pub fn unpack_leaf(bits: u32) -> (u32, usize) {
+        (bits % MAX_LEAVES, (bits >> VERTICES_SHIFT) as usize % LANES + 1)
+    }
+}
+
+impl Node {
+    /// A node without children.
+    pub const EMPTY: Self = {
+        let (low, high) = ([f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
+        Self { planes: [low, low, low, high, high, high], children: [Child::EMPTY; LANES] }
+    };
+
+    /// Puts a child into a slot.
+    pub fn set(&mut self, slot: usize, bounds: &Aabb, child: u32) {
+        for axis in 0..3 {
+            self.planes[axis][slot] = bounds.min[axis];
+            self.planes[3 + axis][slot] = bounds.max[axis];
+        }
+        self.children[slot] = child;
+    }
+
+    /// The box around all children.
+    pub fn bounds(&self) -> Aabb {
+        let least = |axis: usize| self.planes[axis].iter().copied().fold(f32::INFINITY, f32::min);
+        let most =
+            |axis: usize| self.planes[3 + axis].iter().copied().fold(f32::NEG_INFINITY, f32::max);
+        Aabb { min: [0, 1, 2].map(least).into(), max: [0, 1, 2].map(most).into() }
+    }
+
+    /// Half the surface area of the box of each child that is a leaf.
+    pub fn leaf_half_areas(&self) -> impl Iterator<Item = f32> {
+        let is_leaf = |slot: &usize| {
+            let child = self.children[*slot];
+            child != Child::EMPTY && child & LEAF != 0
+        };
+        (0..LANES).filter(is_leaf).map(|slot| {
+            let [x, y, z] =
+                [0, 1, 2].map(|axis| self.planes[axis + 3][slot] - self.planes[axis][slot]);
+            x * y + y * z + z * x
+        })
+    }
+}
