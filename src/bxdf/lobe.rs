@@ -2,12 +2,14 @@
 
 use glam::{Vec2, Vec3};
 
-use super::{BxDF, BxdfFlags, BxdfSample, LambertianReflection, OrenNayar};
+use super::{BxDF, BxdfFlags, BxdfSample};
 use crate::spectrum::Spectrum;
 
 /// Makes [`Lobe`] from the names of the crate's own models.
 macro_rules! lobes {
     ($($model:ident),* $(,)?) => {
+        use super::{$($model),*};
+
         /// A lobe in place: one of this crate's models, or a reference to anyone's.
         ///
         /// The crate's own are told apart by a branch that inlines; others cost a virtual call.

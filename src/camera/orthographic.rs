@@ -78,7 +78,7 @@ impl OrthographicCamera {
         if longer_side.is_nan() || longer_side > f64::from(LARGEST_COORDINATE) {
             return Err(CameraError::OutOfRange("extent"));
         }
-        if extent <= 0.0 {
+        if !EXTENT.limits().contains_f32(extent) {
             return Err(CameraError::Extent(extent));
         }
         check_lens(lens_radius, focal_distance)?;

@@ -75,7 +75,7 @@ impl PerspectiveCamera {
         if !fov.is_finite() {
             return Err(CameraError::OutOfRange("fov"));
         }
-        if fov <= 0.0 || fov >= 180.0 {
+        if !FOV.limits().contains_f32(fov) {
             return Err(CameraError::Fov(fov));
         }
         check_lens(lens_radius, focal_distance)?;

@@ -100,10 +100,10 @@ pub(super) fn check_lens(radius: f32, focal_distance: f32) -> Result<(), CameraE
     if !focal_distance.is_finite() {
         return Err(CameraError::OutOfRange("focal_distance"));
     }
-    if radius < 0.0 {
+    if !LENS_RADIUS.limits().contains_f32(radius) {
         return Err(CameraError::LensRadius(radius));
     }
-    if focal_distance <= 0.0 {
+    if !FOCAL_DISTANCE.limits().contains_f32(focal_distance) {
         return Err(CameraError::FocalDistance(focal_distance));
     }
     Ok(())
