@@ -8,8 +8,6 @@ use crate::spectrum::Spectrum;
 /// Makes [`Lobe`] from the names of the crate's own models.
 macro_rules! lobes {
     ($($model:ident),* $(,)?) => {
-        use super::{$($model),*};
-
         /// A lobe in place: one of this crate's models, or a reference to anyone's.
         ///
         /// The crate's own are told apart by a branch that inlines; others cost a virtual call.
@@ -17,8 +15,8 @@ macro_rules! lobes {
         #[derive(Clone, Copy)]
         pub enum Lobe<'a> {
             $(
-                #[doc = concat!("See [`", stringify!($model), "`].")]
-                $model($model),
+                #[doc = concat!("See [`", stringify!($model), "`](super::", stringify!($model), ").")]
+                $model(super::$model),
             )*
             /// A model from elsewhere: one that its material holds, or that stands in an
             /// [`Arena`](super::Arena::lobe).
@@ -26,9 +24,9 @@ macro_rules! lobes {
         }
 
         $(
-            impl From<$model> for Lobe<'_> {
+            impl From<super::$model> for Lobe<'_> {
                 #[inline]
-                fn from(bxdf: $model) -> Self {
+                fn from(bxdf: super::$model) -> Self {
                     Self::$model(bxdf)
                 }
             }
