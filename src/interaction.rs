@@ -1,11 +1,11 @@
-//! [`SurfaceInteraction`]: what is known about a hit.
+//! [`SurfaceInteraction`]: position, normals and derivatives at a hit.
 
 use glam::{Vec2, Vec3};
 
 use crate::geometry::{BoundedPoint, Frame, Ray, unit, unit_cross};
 use crate::shape::{TriangleMesh, triangle_normal};
 
-/// How position and normal change with the texture coordinates (u, v).
+/// Derivatives of position and normal with respect to the texture coordinates (u, v).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Partials {
     /// ∂p/∂u.
@@ -18,11 +18,11 @@ pub struct Partials {
     pub dndv: Vec3,
 }
 
-/// The geometry that shading sees: that of the surface itself, or of the smooth or bumpy one it
-/// stands for.
+/// Geometry for shading: the surface's own, or as changed by interpolated normals or bump mapping (PBRT 3rd
+/// edition, section 2.10.1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shading {
-    /// Unit shading normal, on the side of the geometric one.
+    /// Unit shading normal, in the hemisphere of the geometric one.
     pub n: Vec3,
     /// ∂p/∂u of the shading surface.
     pub dpdu: Vec3,
@@ -34,9 +34,11 @@ pub struct Shading {
     pub dndv: Vec3,
 }
 
-/// A point where a ray meets a surface, in world space (PBRT 3rd edition, section 2.10.1).
+/// A point where a ray hits a surface, in world space (PBRT 3rd edition, section 2.10.1).
 ///
-/// It is lazy: point and normals are found when it is made, everything else when it is asked for.
+/// It is lazy: the point and the normals are computed on construction, everything else on demand.
+#[doc(alias = "hit")]
+#[doc(alias = "intersection")]
 #[derive(Clone)]
 pub struct SurfaceInteraction<'a> {
     p: BoundedPoint,
@@ -44,23 +46,25 @@ pub struct SurfaceInteraction<'a> {
     n: Vec3,
     shading_n: Vec3,
     source: Source<'a>,
-    /// What [`SurfaceInteraction::set_shading`] was given.
+    /// Set by [`SurfaceInteraction::set_shading`].
     displaced: Option<Shading>,
 }
 
-/// Where on the scene's surfaces a hit is.
+/// Position of a hit on the scene's surfaces: shape, triangle and barycentric coordinates.
+#[doc(alias = "barycentric")]
+#[doc(alias = "primitive")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SurfacePlace {
-    /// The number of the shape, in the order in which the scene's shapes were added.
+    /// Index of the shape, in the order in which shapes were added to the scene.
     pub shape: u32,
-    /// The number of the triangle in the shape's mesh.
+    /// Index of the triangle in the shape's mesh.
     pub triangle: u32,
-    /// Barycentric weights of the triangle's corners, each in `[0, 1]`; their sum is 1 but for rounding.
+    /// Barycentric coordinates, one per corner, each in `[0, 1]`; they add up to 1 except for rounding.
     pub b: [f32; 3],
 }
 
-/// Where the answers come from.
+/// What the remaining quantities are computed from.
 #[derive(Clone)]
 enum Source<'a> {
     Triangle { mesh: &'a TriangleMesh, place: SurfacePlace },
@@ -68,11 +72,11 @@ enum Source<'a> {
 }
 
 impl<'a> SurfaceInteraction<'a> {
-    /// The point of a triangle with barycentric weights `b`, seen from the unit direction `wo`. The mesh
-    /// counts as the scene's first shape.
+    /// The point of a triangle with the barycentric coordinates `b`, seen from the unit direction `wo`. The
+    /// mesh is taken as the scene's shape 0.
     ///
     /// # Panics
-    /// If `triangle` is not one of the mesh's.
+    /// If `triangle` is out of range.
     #[inline]
     pub fn on_triangle(mesh: &'a TriangleMesh, triangle: usize, b: [f32; 3], wo: Vec3) -> Self {
         Self::on_shape(mesh, SurfacePlace { shape: 0, triangle: triangle as u32, b }, wo)
@@ -85,7 +89,7 @@ impl<'a> SurfaceInteraction<'a> {
         let triangle = triangle as usize;
         let corners = mesh.corners(triangle);
         let n = triangle_normal(corners);
-        // With vertex normals, they say which side is outside (PBRT 3rd edition, section 3.6.2).
+        // If there are vertex normals, they define the outer side (PBRT 3rd edition, section 3.6.2).
         let (n, shading_n) = match mesh.shading_normal(triangle, b) {
             Some(ns) => (if n.dot(ns) < 0.0 { -n } else { n }, ns),
             None => (n, n),
@@ -100,9 +104,9 @@ impl<'a> SurfaceInteraction<'a> {
         }
     }
 
-    /// A hit on a surface of any kind: the point with the bounds of its error, texture coordinates,
-    /// the unit direction towards the viewer, and the derivatives. The normal is ∂p/∂u × ∂p/∂v,
-    /// or `wo` where these span no plane.
+    /// A hit on a surface of any kind, from the point with its error bounds, texture coordinates, the unit
+    /// direction towards the viewer, and the derivatives. The normal is ∂p/∂u × ∂p/∂v, or `wo` where these
+    /// are parallel or zero.
     pub fn new(p: BoundedPoint, uv: Vec2, wo: Vec3, partials: Partials) -> Self {
         let n = unit_cross(partials.dpdu, partials.dpdv).unwrap_or(wo);
         let source = Source::Given { uv, partials, place: None };
@@ -115,13 +119,13 @@ impl<'a> SurfaceInteraction<'a> {
         self.p.p
     }
 
-    /// Bounds on the absolute error of the point, by axis.
+    /// Bounds on the absolute error of the point, per axis.
     #[inline]
     pub fn p_error(&self) -> Vec3 {
         self.p.error
     }
 
-    /// Where the hit is on the scene's surfaces; `None` for a point that was made without a mesh.
+    /// Shape, triangle and barycentric coordinates; `None` for a point that was made without a mesh.
     #[inline]
     pub fn place(&self) -> Option<SurfacePlace> {
         match self.source {
@@ -142,13 +146,13 @@ impl<'a> SurfaceInteraction<'a> {
         }
     }
 
-    /// The unit direction towards where the ray came from.
+    /// Unit direction towards the origin of the ray.
     #[inline]
     pub fn wo(&self) -> Vec3 {
         self.wo
     }
 
-    /// The unit geometric normal. It points outside, whichever side `wo` is on.
+    /// Unit geometric normal. It points to the outer side, whichever side `wo` is on.
     #[inline]
     pub fn n(&self) -> Vec3 {
         self.n
@@ -160,7 +164,7 @@ impl<'a> SurfaceInteraction<'a> {
         self.shading_n
     }
 
-    /// The derivatives of the surface itself. A triangle is flat: its normal does not change.
+    /// Derivatives of the surface itself. A triangle is flat: its normal does not change.
     pub fn partials(&self) -> Partials {
         match &self.source {
             Source::Triangle { mesh, place } => {
@@ -191,10 +195,10 @@ impl<'a> SurfaceInteraction<'a> {
         self.partials().dndv
     }
 
-    /// The geometry that shading sees, whole.
+    /// The complete shading geometry.
     ///
-    /// Its tangents are those of the surface, laid into the plane across the shading normal. They
-    /// keep their lengths, which bump mapping relies on.
+    /// Its tangents are those of the surface, projected onto the plane perpendicular to the shading normal. They
+    /// are not normalized, because bump mapping needs their lengths.
     pub fn shading(&self) -> Shading {
         if let Some(displaced) = self.displaced {
             return displaced;
@@ -213,8 +217,8 @@ impl<'a> SurfaceInteraction<'a> {
         Shading { n, dpdu, dpdv, dndu, dndv }
     }
 
-    /// Replaces the geometry that shading sees, as bump mapping does. The normal is brought to unit length
-    /// and to the side of the geometric one; one that is zero or not finite leaves all as it was.
+    /// Replaces the shading geometry, as bump mapping does. The normal is normalized and flipped into the
+    /// hemisphere of the geometric one. If it is zero or not finite, nothing changes.
     pub fn set_shading(&mut self, shading: Shading) {
         let Some(n) = unit(shading.n) else { return };
         let n = if n.dot(self.n) < 0.0 { -n } else { n };
@@ -222,7 +226,7 @@ impl<'a> SurfaceInteraction<'a> {
         self.displaced = Some(Shading { n, ..shading });
     }
 
-    /// This hit as a texture would see it from a point nearby, with another normal.
+    /// This hit at a point nearby with another normal: for finite differences of textures.
     pub fn moved_to(&self, p: Vec3, uv: Vec2, n: Vec3) -> Self {
         Self {
             p: BoundedPoint { p, error: self.p.error },
@@ -234,13 +238,13 @@ impl<'a> SurfaceInteraction<'a> {
         }
     }
 
-    /// The ray that leaves this point along `w`, from an origin that lies outside of the error box.
+    /// The ray that leaves this point along `w`. Its origin is offset beyond the error bounds.
     #[inline]
     pub fn spawn_ray(&self, w: Vec3) -> Ray {
         Ray::new(self.ray_origin(w), w)
     }
 
-    /// The ray from this point to `target`, which is at t = 1 and left out.
+    /// The ray from this point to `target`, which is at t = 1 and excluded.
     #[inline]
     pub fn spawn_ray_to(&self, target: Vec3) -> Ray {
         Ray::between(self.ray_origin(target - self.p.p), target)

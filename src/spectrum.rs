@@ -1,4 +1,4 @@
-//! [`Spectrum`]: the colour of light and of surfaces, as linear RGB.
+//! [`Spectrum`]: linear RGB, for light and for reflectances.
 
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, Sub};
@@ -7,9 +7,9 @@ use glam::{Vec3, Vec3A};
 
 /// A spectral quantity in three bands: linear RGB with the Rec. 709 primaries and the D65 white point.
 ///
-/// It stands for radiance in W / (m² sr), for radiant intensity in W / sr, or for a reflectance
-/// without a unit, as the place that uses it says. Products and sums are per band: the reflection
-/// models assume that no energy moves from one wavelength to another (no fluorescence).
+/// The unit depends on the use: radiance in W / (m² sr), radiant intensity in W / sr, or a reflectance without
+/// a unit. All operations are per band, since reflection models do not move energy between wavelengths
+/// (no fluorescence).
 ///
 /// ```
 /// use lobe::Spectrum;
@@ -17,11 +17,13 @@ use glam::{Vec3, Vec3A};
 /// assert_eq!((red * 0.5).to_array(), [0.4, 0.05, 0.1]);
 /// assert!((red * Spectrum::BLACK).is_black());
 /// ```
+#[doc(alias = "rgb")]
+#[doc(alias = "color")]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Spectrum(Vec3A);
 
 impl Spectrum {
-    /// No light, or a surface that reflects none.
+    /// Zero in every band.
     pub const BLACK: Self = Self(Vec3A::ZERO);
     /// One in every band.
     pub const WHITE: Self = Self(Vec3A::ONE);
@@ -56,13 +58,13 @@ impl Spectrum {
         self.0.is_finite()
     }
 
-    /// Whether every band is finite and at least zero: what radiance and reflectance have to be.
+    /// Whether every band is finite and at least zero, as radiances and reflectances have to be.
     #[inline]
     pub fn is_valid(self) -> bool {
         self.0.is_finite() && self.0.cmpge(Vec3A::ZERO).all()
     }
 
-    /// Every band brought into `[low, high]`. What becomes of NaN is left open.
+    /// Every band clamped to `[low, high]`. The result for NaN is unspecified.
     #[inline]
     pub fn clamp(self, low: f32, high: f32) -> Self {
         Self(self.0.clamp(Vec3A::splat(low), Vec3A::splat(high)))

@@ -647,11 +647,11 @@ fn bad_overrides() {
         ),
         (
             "film.display=srgb",
-            "--set film.display=srgb: text as a value stands in quotes: --set 'film.display=\"srgb\"'",
+            "--set film.display=srgb: text values need quotes: --set 'film.display=\"srgb\"'",
         ),
         (
             "shape.z.obj=../a b.obj",
-            "--set shape.z.obj=../a b.obj: text as a value stands in quotes: --set 'shape.z.obj=\"../a b.obj\"'",
+            "--set shape.z.obj=../a b.obj: text values need quotes: --set 'shape.z.obj=\"../a b.obj\"'",
         ),
         (
             "shape.z.material='clot'",

@@ -14,23 +14,26 @@ use crate::spectrum::Spectrum;
 /// The most lobes that one [`Bsdf`] holds (PBRT's `MaxBxDFs`).
 pub const MAX_LOBES: usize = 8;
 
-/// The part of the probability that all lobes share alike; the rest is shared by
-/// [`BxDF::albedo_estimate`]. So an estimate that is wrong costs noise and never loses light.
+/// Fraction of the selection probability that is uniform over the lobes; the rest is proportional to
+/// [`BxDF::albedo_estimate`]. So a wrong estimate adds noise but never loses light.
 const EQUAL_PART: f32 = 0.1;
 
-/// How a surface scatters light at one point: a sum of lobes, asked and answered in world space.
+/// The bidirectional scattering distribution function at one point: a sum of lobes, evaluated in world space
+/// (PBRT 3rd edition, section 9.1).
 ///
-/// It stands between the world and the lobes, and is their one guard:
-/// - world directions go in, shading coordinates reach the lobes. The frame is the one that every cosine
-///   of this surface comes from: [`abs_cos_theta`](Bsdf::abs_cos_theta);
-/// - the shading normal makes the coordinates, but the **geometric** normal decides whether light is
-///   reflected or transmitted, so that none leaks through a surface whose shading normal leans over
-///   (PBRT 3rd edition, section 9.1). Directions for which the two normals disagree are black (but for
-///   delta lobes): no lobe draws any above the surface and below the shading plane, and light sampling alone
-///   would count them;
-/// - no lobe is asked about a `wo` that lies exactly along the surface;
-/// - an event's side follows from its directions, whatever its lobe says, and so does whether it has an index;
-/// - nothing leaves it that is not finite and non-negative. What a lobe gave instead is counted in
+/// It converts between world and shading coordinates, and checks everything that lobes return, so that no
+/// lobe has to:
+/// - Lobes see shading coordinates only. The shading frame is also the source of every cosine of this
+///   surface: [`abs_cos_theta`](Bsdf::abs_cos_theta).
+/// - Shading coordinates follow the shading normal, but the **geometric** normal decides whether light is
+///   reflected or transmitted. So no light leaks through a surface whose shading normal is tilted.
+///   Pairs of directions for which the two normals disagree are black, except for delta lobes. Lobes never
+///   sample a direction above the surface and below the shading plane, so only light sampling would find
+///   those, and the two strategies would not agree.
+/// - No lobe is called with a `wo` exactly parallel to the surface.
+/// - Whether a sample is a reflection or a transmission follows from its directions, not from the lobe's
+///   flags; only a transmission keeps its relative index `eta`.
+/// - Every value returned is finite and non-negative. Invalid results of lobes are counted in
 ///   [`rejected`](Bsdf::rejected).
 ///
 /// ```
@@ -49,20 +52,22 @@ const EQUAL_PART: f32 = 0.1;
 /// assert_eq!(bsdf.f(wo, -sample.wi, BxdfFlags::all()), Spectrum::BLACK);
 /// ```
 #[derive(Clone)]
+#[doc(alias = "bxdf")]
+#[doc(alias = "scattering")]
 pub struct Bsdf<'a> {
     frame: Frame,
     ng: Vec3,
-    /// Each lobe with its kind, so that a question need not ask the lobes that it is not for.
+    /// Each lobe with its flags, cached so that lobes of other kinds are skipped without a call.
     lobes: ArrayVec<(Lobe<'a>, BxdfFlags), MAX_LOBES>,
     rejected: Cell<u32>,
 }
 
 impl<'a> Bsdf<'a> {
-    /// A surface without lobes, which absorbs everything, in a frame of the caller's.
+    /// A surface without lobes, which absorbs all light, in the given shading frame.
     ///
-    /// `frame` stands on the shading normal, and `ng` is the unit geometric normal. A frame that is not
-    /// orthonormal to 1e-3 would change how much light there is: [`Frame::from_normal`] of `ng` takes its
-    /// place, and it is counted as rejected.
+    /// The z axis of `frame` is the shading normal, and `ng` is the unit geometric normal. A frame that is not
+    /// orthonormal to 1e-3 would not conserve energy: it is replaced by [`Frame::from_normal`] of `ng`, and
+    /// counted as rejected.
     pub fn new(frame: Frame, ng: Vec3) -> Self {
         let mut bsdf = Self::in_frame(frame, ng);
         if !frame.is_orthonormal() {
@@ -72,15 +77,15 @@ impl<'a> Bsdf<'a> {
         bsdf
     }
 
-    /// A surface without lobes in the frame of its shading normal, whose tangents point anywhere: for lobes
-    /// that look the same from all sides.
+    /// A surface without lobes. The frame follows the shading normal and its tangents are arbitrary: for
+    /// isotropic lobes.
     #[inline]
     pub fn isotropic(si: &SurfaceInteraction) -> Self {
         Self::in_frame(Frame::from_normal(si.shading_n()), si.n())
     }
 
-    /// A surface without lobes in the frame of its shading normal, with the x axis along ∂p/∂u: for lobes
-    /// that have a grain.
+    /// A surface without lobes. The frame follows the shading normal and its x axis follows ∂p/∂u: for
+    /// anisotropic lobes.
     pub fn along_u(si: &SurfaceInteraction) -> Self {
         let tangent = si.shading().dpdu;
         Self::in_frame(Frame::from_normal_and_tangent(si.shading_n(), tangent), si.n())
@@ -91,7 +96,7 @@ impl<'a> Bsdf<'a> {
         Self { frame, ng, lobes: ArrayVec::new_const(), rejected: Cell::new(0) }
     }
 
-    /// Adds a lobe. Returns whether there was room for it: a ninth lobe is left out, and counted as
+    /// Adds a lobe. Returns false if all [`MAX_LOBES`] are in use: the lobe is then left out and counted as
     /// rejected.
     #[inline]
     pub fn add(&mut self, lobe: impl Into<Lobe<'a>>) -> bool {
@@ -109,25 +114,25 @@ impl<'a> Bsdf<'a> {
         &self.frame
     }
 
-    /// |cos θ| of a world direction with the shading normal: what [`f`](Bsdf::f) has to be multiplied by.
+    /// |cos θ| between a world direction and the shading normal: the factor that [`f`](Bsdf::f) leaves out.
     #[inline]
     pub fn abs_cos_theta(&self, w: Vec3) -> f32 {
         w.dot(self.frame.n).abs()
     }
 
-    /// How many lobes found no room, and how many answers of lobes were left out, or turned into black,
-    /// because they were negative, not finite, or on a side that the lobe's flags do not name.
+    /// Number of errors since construction: lobes that did not fit, and results of lobes that were dropped or
+    /// replaced by black because they were negative, not finite, or on a side that the lobe's flags exclude.
     pub fn rejected(&self) -> u32 {
         self.rejected.get()
     }
 
-    /// How many lobes are among the kinds that `flags` names.
+    /// Number of lobes whose flags are all contained in `flags`.
     #[inline]
     pub fn num_components(&self, flags: BxdfFlags) -> usize {
         self.matching(flags).count()
     }
 
-    /// Whether [`sample_f`](Bsdf::sample_f) looks at `uc`: there are several lobes, or one that does.
+    /// Whether [`sample_f`](Bsdf::sample_f) uses `uc`: if there are several lobes, or one that uses it.
     #[inline]
     pub fn uses_uc(&self) -> bool {
         match &self.lobes[..] {
@@ -137,8 +142,8 @@ impl<'a> Bsdf<'a> {
         }
     }
 
-    /// The value for a pair of world directions, without the cosine, in 1/sr: the sum of the lobes of
-    /// the kinds in `flags`. Delta lobes add nothing.
+    /// Value for a pair of world directions, without the cosine, in 1/sr: the sum over the lobes that match
+    /// `flags`. Delta lobes contribute nothing.
     #[inline]
     pub fn f(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> Spectrum {
         let local_wo = self.frame.to_local(wo);
@@ -149,12 +154,12 @@ impl<'a> Bsdf<'a> {
         self.guarded(f)
     }
 
-    /// A world direction `wi` drawn from one of the lobes of the kinds in `flags`, the likelier the larger
-    /// its [`BxDF::albedo_estimate`]. `uc` in `[0, 1)` chooses the lobe and its event, `u` in `[0, 1)²` the
-    /// direction.
+    /// Samples a world direction `wi`. One of the lobes that match `flags` is selected with a probability
+    /// that grows with its [`BxDF::albedo_estimate`]. `uc` in `[0, 1)` selects the lobe and its event, `u` in
+    /// `[0, 1)²` the direction.
     ///
-    /// `f` and `pdf` of the sample are those of all these lobes together, unless the event is specular.
-    /// `None` when no lobe matches, or when the chosen one has no direction for these samples.
+    /// `f` and `pdf` of the sample are those of all matching lobes together, unless the event is specular.
+    /// `None` if no lobe matches, or if the selected one returns no sample.
     pub fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2, flags: BxdfFlags) -> Option<BxdfSample> {
         let local_wo = self.frame.to_local(wo);
         if local_wo.z == 0.0 {
@@ -190,8 +195,8 @@ impl<'a> Bsdf<'a> {
         Some(sample)
     }
 
-    /// Density over solid angle with which [`sample_f`](Bsdf::sample_f) gives `wi`: the mean over the
-    /// lobes of the kinds in `flags`, by how likely each is drawn.
+    /// Density over solid angle with which [`sample_f`](Bsdf::sample_f) returns `wi`: the mean of the
+    /// matching lobes' densities, weighted by their selection probabilities.
     #[inline]
     pub fn pdf(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> f32 {
         let local = [wo, wi].map(|w| self.frame.to_local(w));
@@ -201,7 +206,7 @@ impl<'a> Bsdf<'a> {
         self.guarded_pdf(self.mean_pdf(&self.shares(local[0], flags), local, flags))
     }
 
-    /// [`f`](Bsdf::f) and [`pdf`](Bsdf::pdf) in one go.
+    /// [`f`](Bsdf::f) and [`pdf`](Bsdf::pdf) together.
     #[inline]
     pub fn f_and_pdf(&self, wo: Vec3, wi: Vec3, flags: BxdfFlags) -> (Spectrum, f32) {
         let local = [wo, wi].map(|w| self.frame.to_local(w));
@@ -213,7 +218,7 @@ impl<'a> Bsdf<'a> {
         (self.guarded(f), self.guarded_pdf(pdf))
     }
 
-    /// The share of a uniform light that leaves along the world direction `wo`: see [`BxDF::rho_hd`].
+    /// Fraction of uniform incident light that is scattered along the world direction `wo`: see [`BxDF::rho_hd`].
     pub fn rho_hd(&self, wo: Vec3, uc: &[f32], u: &[Vec2], flags: BxdfFlags) -> Spectrum {
         let wo = self.frame.to_local(wo);
         if wo.z == 0.0 {
@@ -222,14 +227,13 @@ impl<'a> Bsdf<'a> {
         self.guarded(self.matching(flags).map(|(lobe, _)| lobe.rho_hd(wo, uc, u)).sum())
     }
 
-    /// The share of a uniform light that leaves at all: see [`BxDF::rho_hh`].
+    /// Fraction of uniform incident light that is scattered at all: see [`BxDF::rho_hh`].
     pub fn rho_hh(&self, u1: &[Vec2], uc: &[f32], u2: &[Vec2], flags: BxdfFlags) -> Spectrum {
         self.guarded(self.matching(flags).map(|(lobe, _)| lobe.rho_hh(u1, uc, u2)).sum())
     }
 
-    /// Brings an event's flags in line with what is known otherwise: its side follows from its directions,
-    /// only what crosses the surface has an index, and a lobe that spreads light in one way alone gives no
-    /// events of another.
+    /// Makes a sample's flags consistent: its side follows from its directions, only a transmission has an
+    /// index, and if the lobe has a single kind of spread (diffuse, glossy or specular), so do its samples.
     #[inline]
     fn correct_event(&self, sample: &mut BxdfSample, kind: BxdfFlags, wo_z: f32, wi_z: f32) {
         let reflects = (wo_z > 0.0) == (wi_z > 0.0);
@@ -238,19 +242,19 @@ impl<'a> Bsdf<'a> {
             only if only.bits().is_power_of_two() && !sample.is_specular() => only,
             _ => sample.flags - SIDES,
         };
-        let told = sample.flags;
+        let claimed = sample.flags;
         sample.flags = side | spread;
         if reflects {
             sample.eta = 1.0;
-        } else if !(sample.eta > 0.0 && sample.eta < f32::INFINITY && told.contains(side)) {
-            // Without the index roulette is noisy, but nothing is lost.
+        } else if !(sample.eta > 0.0 && sample.eta < f32::INFINITY && claimed.contains(side)) {
+            // An index of 1 only makes Russian roulette noisier; the estimate stays unbiased.
             self.reject();
             sample.eta = 1.0;
         }
     }
 
-    /// Reflection or transmission of a pair of world directions, which are `local` in shading coordinates;
-    /// neither if the two normals disagree.
+    /// Whether a pair of directions is a reflection or a transmission; empty if the geometric and the shading
+    /// normal disagree.
     #[inline]
     fn side(&self, [wo, wi]: [Vec3; 2], local: [Vec3; 2]) -> BxdfFlags {
         let reflects = (wi.dot(self.ng) > 0.0) == (wo.dot(self.ng) > 0.0);
@@ -261,7 +265,7 @@ impl<'a> Bsdf<'a> {
         }
     }
 
-    /// The lobes' values for a pair of directions in the world, which are `local` in shading coordinates.
+    /// Sum of the matching lobes' values for a pair of directions, in world and in shading coordinates.
     #[inline]
     fn sum(&self, world: [Vec3; 2], local: [Vec3; 2], flags: BxdfFlags) -> Spectrum {
         let side = self.side(world, local);
@@ -275,14 +279,14 @@ impl<'a> Bsdf<'a> {
         f
     }
 
-    /// The density with which one of the lobes, drawn by their shares, gives a pair of local directions.
+    /// Density of a pair of local directions, averaged over the lobes by their selection probabilities.
     #[inline]
     fn mean_pdf(&self, shares: &Shares, [wo, wi]: [Vec3; 2], flags: BxdfFlags) -> f32 {
         let pdfs = self.matching(flags).map(|(lobe, _)| lobe.pdf(wo, wi));
         pdfs.enumerate().map(|(i, pdf)| shares.of(i) * pdf).sum()
     }
 
-    /// How likely each of the lobes of the kinds in `flags` is drawn for a local direction.
+    /// Selection probability of each lobe that matches `flags`, for a local direction.
     #[inline]
     fn shares(&self, wo: Vec3, flags: BxdfFlags) -> Shares {
         match self.num_components(flags) {
@@ -295,7 +299,7 @@ impl<'a> Bsdf<'a> {
         }
     }
 
-    /// The lobes of the kinds in `flags`, each with its kind.
+    /// The lobes that match `flags`, each with its own flags.
     #[inline]
     fn matching(&self, flags: BxdfFlags) -> impl Iterator<Item = (&Lobe<'a>, BxdfFlags)> {
         self.lobes
@@ -330,15 +334,15 @@ impl<'a> Bsdf<'a> {
 
 const SIDES: BxdfFlags = BxdfFlags::REFLECTION.union(BxdfFlags::TRANSMISSION);
 
-/// How likely each of several lobes is drawn: at least [`EQUAL_PART`] of an equal share.
+/// Selection probability of each lobe: at least [`EQUAL_PART`] of a uniform probability.
 struct Shares(ArrayVec<f32, MAX_LOBES>);
 
 impl Shares {
-    /// The shares of two lobes or more, in proportion to these estimates but for the equal part.
+    /// Probabilities of two or more lobes, proportional to their estimates except for [`EQUAL_PART`].
     #[inline(never)]
     fn new(mut estimates: ArrayVec<f32, MAX_LOBES>) -> Self {
         for estimate in &mut estimates {
-            // NaN is not above 0.
+            // False for NaN as well.
             *estimate = if *estimate > 0.0 { estimate.min(1.0) } else { 0.0 };
         }
         let sum: f32 = estimates.iter().sum();
@@ -360,7 +364,7 @@ impl Shares {
         self.0[lobe]
     }
 
-    /// The lobe that `uc` chooses, and what is left of `uc`, stretched over `[0, 1)` again.
+    /// The lobe that `uc` selects, and the remainder of `uc`, rescaled to `[0, 1)`.
     #[inline]
     fn choose(&self, uc: f32) -> (usize, f32) {
         if self.count() < 2 {

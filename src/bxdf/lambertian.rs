@@ -1,4 +1,4 @@
-//! [`LambertianReflection`]: the perfect diffuser.
+//! [`LambertianReflection`]: ideal diffuse reflection.
 
 use std::f32::consts::FRAC_1_PI;
 
@@ -7,17 +7,19 @@ use glam::{Vec2, Vec3};
 use super::{BxDF, BxdfFlags};
 use crate::spectrum::Spectrum;
 
-/// Reflects the same radiance in all directions.
+/// Ideal diffuse reflection: the same radiance in all directions (PBRT 3rd edition, section 8.3).
 ///
-/// f = R/π: integrated with the cosine over the hemisphere, the constant has to give the reflectance
-/// R, and ∫ cos θ dω = π (formula 5.1 of the chapter; PBRT 3rd edition, section 8.3).
+/// f = R/π. Multiplied by cos θ and integrated over the hemisphere, f has to give the reflectance R, and
+/// ∫ cos θ dω = π (formula 5.1 of the chapter).
+#[doc(alias = "lambert")]
+#[doc(alias = "diffuse")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LambertianReflection {
     r: Spectrum,
 }
 
 impl LambertianReflection {
-    /// A diffuser that reflects the share `r` of the light, in `[0, 1]` per band.
+    /// Reflects the fraction `r` of incident light, in `[0, 1]` per band.
     #[inline]
     pub const fn new(r: Spectrum) -> Self {
         Self { r }

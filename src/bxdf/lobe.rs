@@ -1,25 +1,25 @@
-//! [`Lobe`]: what a [`Bsdf`](super::Bsdf) holds, and the one list of the crate's own models.
+//! [`Lobe`]: an element of a [`Bsdf`](super::Bsdf), and the one list of this crate's reflection models.
 
 use glam::{Vec2, Vec3};
 
 use super::{BxDF, BxdfFlags, BxdfSample};
 use crate::spectrum::Spectrum;
 
-/// Makes [`Lobe`] from the names of the crate's own models.
+/// Defines [`Lobe`] from the list of this crate's models.
 macro_rules! lobes {
     ($($model:ident),* $(,)?) => {
-        /// A lobe in place: one of this crate's models, or a reference to anyone's.
+        /// One lobe: a model of this crate, stored in place, or a reference to any other [`BxDF`].
         ///
-        /// The crate's own are told apart by a branch that inlines; others cost a virtual call.
-        /// `benches/shading.rs` has the figures that this choice was made on.
+        /// Models of this crate are dispatched by an inlined branch, others by a virtual call.
+        /// `benches/shading.rs` measures both.
         #[derive(Clone, Copy)]
+        #[non_exhaustive]
         pub enum Lobe<'a> {
             $(
                 #[doc = concat!("See [`", stringify!($model), "`](super::", stringify!($model), ").")]
                 $model(super::$model),
             )*
-            /// A model from elsewhere: one that its material holds, or that stands in an
-            /// [`Arena`](super::Arena::lobe).
+            /// A model defined elsewhere, held by its material or by an [`Arena`](super::Arena::lobe).
             Custom(&'a dyn BxDF),
         }
 
@@ -32,7 +32,7 @@ macro_rules! lobes {
             }
         )*
 
-        /// Passes a call on to whichever model the lobe is.
+        /// Calls the same method on whichever model the lobe holds.
         macro_rules! each {
             ($lobe:expr, $bxdf:ident => $call:expr) => {
                 match $lobe {

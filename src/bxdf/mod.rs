@@ -1,7 +1,7 @@
-//! Reflection models: the contract [`BxDF`], one model per file, and [`Bsdf`], their sum at a hit.
+//! Reflection models: the trait [`BxDF`], one model per file, and [`Bsdf`], their sum at a hit.
 //!
-//! Everything below [`Bsdf`] lives in shading coordinates: the z axis is the shading normal, and `wo`
-//! and `wi` are unit vectors that both point away from the surface.
+//! All models use shading coordinates: the z axis is the shading normal, and `wo` and `wi` are unit
+//! vectors that both point away from the surface. [`Bsdf`] converts from and to world space.
 
 mod arena;
 mod bsdf;

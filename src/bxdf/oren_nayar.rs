@@ -8,14 +8,19 @@ use super::{BxDF, BxdfFlags};
 use crate::geometry::trig::{abs_cos_theta, sin_theta, sin2_theta};
 use crate::spectrum::Spectrum;
 
-/// A surface of V-shaped grooves, each a perfect diffuser, whose slopes have the standard deviation
-/// sigma: brighter than Lambert towards the light, flatter over a rounded body.
+/// Rough diffuse reflection: V-shaped grooves with Lambertian sides, whose slopes have the standard
+/// deviation sigma. It is brighter than Lambertian reflection towards the light, and looks flatter on
+/// rounded bodies.
 ///
 /// The qualitative model of Oren and Nayar 1994, "Generalization of Lambert's Reflectance Model",
-/// equation 30, as PBRT has it (3rd edition, section 8.4.1):
-/// f = R/π (A + B max(0, cos(φi - φo)) sin α tan β), α and β the larger and the smaller of the two angles to
-/// the normal. It leaves out light between the grooves, so it loses energy: up to 44 % at sigma 90. Close
-/// to the horizon it is too bright instead: at sigma 11 degrees it reflects up to 1.015 R there.
+/// equation 30, in PBRT's form (3rd edition, section 8.4.1):
+/// f = R/π (A + B max(0, cos(φi - φo)) sin α tan β), where α is the larger and β the smaller of the two
+/// angles to the normal.
+///
+/// It ignores interreflection between the grooves, so it loses energy: up to 44 % at sigma 90 degrees. Close
+/// to the horizon it gains energy instead: at sigma 11 degrees it reflects up to 1.015 R there.
+#[doc(alias = "rough")]
+#[doc(alias = "diffuse")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrenNayar {
     r: Spectrum,
@@ -24,8 +29,8 @@ pub struct OrenNayar {
 }
 
 impl OrenNayar {
-    /// A rough diffuser that reflects the share `r` of the light, in `[0, 1]` per band, with slopes of
-    /// standard deviation `sigma` in degrees, in `[0, 90]`. Sigma 0 is Lambert's law.
+    /// Reflects about the fraction `r` of incident light, in `[0, 1]` per band; `sigma` is the standard
+    /// deviation of the slopes in degrees, in `[0, 90]`. Sigma 0 gives Lambertian reflection.
     #[inline]
     pub fn new(r: Spectrum, sigma: f32) -> Self {
         let sigma2 = sigma.to_radians().powi(2);
@@ -41,8 +46,8 @@ impl BxDF for OrenNayar {
 
     #[inline]
     fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        // sin θi sin θo max(0, cos Δφ) is the dot product of the directions seen from above, and
-        // sin α tan β = sin θi sin θo / max(cos θi, cos θo): no angle has to be found.
+        // sin θi sin θo max(0, cos Δφ) is the dot product of the directions projected onto the surface, and
+        // sin α tan β = sin θi sin θo / max(cos θi, cos θo): no angle has to be computed.
         let across = wo.truncate().dot(wi.truncate()).max(0.0);
         let larger_cos = abs_cos_theta(wo).max(abs_cos_theta(wi));
         self.r * (FRAC_1_PI * (self.a + self.b * (across / larger_cos)))
@@ -53,14 +58,14 @@ impl BxDF for OrenNayar {
         false
     }
 
-    /// R: the roughness changes it by less than half.
+    /// R: roughness lowers the albedo by less than half.
     #[inline]
     fn albedo_estimate(&self, _wo: Vec3) -> f32 {
         self.r.max_component()
     }
 
-    /// The integral of f cos θi in closed form: over φ, max(0, cos φ) gives 2; over θi it falls into
-    /// the directions above and below wo. With c = cos θ and s = sin θ of wo,
+    /// The integral of f cos θi in closed form: over φ, max(0, cos φ) gives 2; over θi it splits into the
+    /// directions above and below wo. With c = cos θ and s = sin θ of wo,
     /// ρ = R (A + 2B/π [ s (θ - s c)/2 + (tan θ)(1 - s³)/3 ]).
     fn rho_hd(&self, wo: Vec3, _uc: &[f32], _u: &[Vec2]) -> Spectrum {
         let (cos, sin) = (abs_cos_theta(wo), sin_theta(wo));

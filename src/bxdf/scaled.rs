@@ -1,11 +1,11 @@
-//! [`ScaledBxDF`]: another lobe, dimmed.
+//! [`ScaledBxDF`]: a lobe multiplied by a spectrum.
 
 use glam::{Vec2, Vec3};
 
 use super::{BxDF, BxdfFlags, BxdfSample};
 use crate::spectrum::Spectrum;
 
-/// A lobe whose values are multiplied by a spectrum. Directions and densities are those of the lobe.
+/// A lobe whose values are multiplied by a spectrum. Sampled directions and densities do not change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScaledBxDF<B> {
     bxdf: B,
@@ -13,7 +13,7 @@ pub struct ScaledBxDF<B> {
 }
 
 impl<B: BxDF> ScaledBxDF<B> {
-    /// `bxdf` times `scale`, which is in `[0, 1]` per band where energy is to be kept.
+    /// `bxdf` times `scale`. Values of `scale` in `[0, 1]` per band conserve energy if `bxdf` does.
     #[inline]
     pub const fn new(bxdf: B, scale: Spectrum) -> Self {
         Self { bxdf, scale }

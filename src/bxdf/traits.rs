@@ -1,4 +1,4 @@
-//! The contract of reflection models.
+//! [`BxDF`], the trait of reflection models.
 
 use glam::{DVec3, Vec2, Vec3};
 
@@ -7,68 +7,71 @@ use crate::sampling::{cosine_hemisphere, uniform_hemisphere};
 use crate::spectrum::Spectrum;
 
 bitflags::bitflags! {
-    /// What a lobe does with light: which side it sends it to, and how it spreads it.
+    /// The kind of a lobe: to which side it scatters light, and how widely.
     ///
-    /// As a question, the flags name what is wanted: a lobe matches when all of its own are among them.
+    /// As a filter, the flags are those that may occur: a lobe matches if all of its flags are among them.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct BxdfFlags: u8 {
-        /// Light stays on the side it came from.
+        /// Light leaves on the side from which it came.
         const REFLECTION = 1;
-        /// Light goes through to the other side.
+        /// Light leaves on the other side.
         const TRANSMISSION = 2;
-        /// Spread over all directions.
+        /// Scattered over all directions.
         const DIFFUSE = 4;
-        /// Spread around one direction.
+        /// Scattered around one direction.
         const GLOSSY = 8;
-        /// One direction alone: a delta distribution.
+        /// Scattered into a single direction: a delta distribution.
+        #[doc(alias = "delta")]
         const SPECULAR = 16;
     }
 }
 
-/// A direction drawn from a lobe: one event of scattering.
+/// A direction sampled from a lobe: one scattering event.
 ///
-/// It is made by the constructor that names how the event spreads light, so that its flags are those of
-/// the event and never those of the whole lobe: [`diffuse`](Self::diffuse), [`glossy`](Self::glossy) or
-/// [`specular`](Self::specular), each of which reflects unless [`transmitted`](Self::transmitted) follows.
-/// [`Bsdf`](super::Bsdf) looks again: on which side an event is follows from `wo` and `wi`.
+/// Its constructors name how the event scatters light, so that the flags are those of this event and not of
+/// the whole lobe: [`diffuse`](Self::diffuse), [`glossy`](Self::glossy) or [`specular`](Self::specular).
+/// Each is a reflection unless [`transmitted`](Self::transmitted) follows. [`Bsdf`](super::Bsdf) derives
+/// the side again from `wo` and `wi`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BxdfSample {
-    /// The value for the pair of directions, without the cosine, in 1/sr. For a delta lobe, the value
-    /// that makes f |cos θi| / pdf the share of light that goes this way.
+    /// Value for the pair of directions, without the cosine, in 1/sr. For a delta lobe: such that
+    /// f |cos θi| / pdf is the fraction of light scattered this way.
     pub f: Spectrum,
     /// The direction that light comes from, a unit vector.
     pub wi: Vec3,
-    /// Density over solid angle, above 0; of a specular event its probability.
+    /// Density over solid angle, above 0; for a specular event, its probability.
     pub pdf: f32,
-    /// What happened: one of `REFLECTION` and `TRANSMISSION`, and one of `DIFFUSE`, `GLOSSY` and
+    /// Kind of this event: one of `REFLECTION` and `TRANSMISSION`, and one of `DIFFUSE`, `GLOSSY` and
     /// `SPECULAR`.
     pub flags: BxdfFlags,
-    /// The relative index of refraction that the path crossed from `wo` to `wi`: the index on the side of
-    /// `wi` over that on the side of `wo`; 1 for a reflection. Russian roulette asks for it.
+    /// Relative index of refraction across the event: the index on the side of `wi` divided by that on the
+    /// side of `wo`; 1 for a reflection. Russian roulette uses it.
     pub eta: f32,
 }
 
 impl BxdfSample {
-    /// A reflection into all directions, drawn with the density `pdf` over solid angle.
+    /// A diffuse reflection; `pdf` is the density over solid angle.
     #[inline]
     pub const fn diffuse(f: Spectrum, wi: Vec3, pdf: f32) -> Self {
         Self::reflected(f, wi, pdf, BxdfFlags::DIFFUSE)
     }
 
-    /// A reflection around one direction, drawn with the density `pdf` over solid angle.
+    /// A glossy reflection; `pdf` is the density over solid angle.
     #[inline]
     pub const fn glossy(f: Spectrum, wi: Vec3, pdf: f32) -> Self {
         Self::reflected(f, wi, pdf, BxdfFlags::GLOSSY)
     }
 
-    /// A reflection into one direction alone, chosen with this probability.
+    /// A specular reflection, which has only this direction and was selected with this probability.
+    #[doc(alias = "delta")]
+    #[doc(alias = "mirror")]
     #[inline]
     pub const fn specular(f: Spectrum, wi: Vec3, probability: f32) -> Self {
         Self::reflected(f, wi, probability, BxdfFlags::SPECULAR)
     }
 
-    /// The same as an event of transmission, over a boundary with this relative index of refraction: see
+    /// The same event as a transmission across an interface with the relative index of refraction
     /// [`eta`](Self::eta).
     #[inline]
     pub const fn transmitted(self, eta: f32) -> Self {
@@ -81,27 +84,28 @@ impl BxdfSample {
         Self { f, wi, pdf, flags: BxdfFlags::REFLECTION.union(spread), eta: 1.0 }
     }
 
-    /// Whether the direction is the only one that this event has.
+    /// Whether the event has only this direction: a delta distribution.
+    #[doc(alias = "delta")]
     #[inline]
     pub const fn is_specular(&self) -> bool {
         self.flags.contains(BxdfFlags::SPECULAR)
     }
 }
 
-/// One lobe of reflection, of transmission, or of both: how much of the light that comes from `wi` leaves
-/// along `wo`.
+/// One lobe: the ratio of radiance scattered along `wo` to irradiance arriving from `wi`, for reflection,
+/// transmission, or both (PBRT 3rd edition, chapter 8).
 ///
-/// All directions are unit vectors in shading coordinates, away from the surface; `wo.z` is not 0 (see
-/// [`Bsdf`](super::Bsdf), which sees to it). A model implements `flags` and `f`; the defaults sample
-/// cosine-weighted directions and estimate the reflectances by Monte Carlo. Paths run from the camera to
-/// the lights and carry radiance, so a lobe that refracts includes the factor of 1/η² in `f`.
+/// All directions are unit vectors in shading coordinates and point away from the surface; `wo.z` is never 0
+/// ([`Bsdf`](super::Bsdf) ensures it). A model implements `flags` and `f`. The default methods sample
+/// cosine-weighted directions and estimate reflectances by Monte Carlo. Paths start at the camera and carry
+/// radiance, so a refracting lobe includes the factor 1/η² in `f`.
 ///
 /// ```
 /// use lobe::Spectrum;
 /// use lobe::bxdf::{BxDF, BxdfFlags};
 /// use lobe::glam::{Vec2, Vec3};
 ///
-/// /// Reflects half of the light, but only back to where it came from in azimuth.
+/// /// Reflects half of the light, and only into the half space that it came from.
 /// #[derive(Clone, Copy)]
 /// struct HalfMoon;
 ///
@@ -122,14 +126,14 @@ impl BxdfSample {
 /// assert!(HalfMoon.matches(BxdfFlags::all()) && !HalfMoon.matches(BxdfFlags::REFLECTION));
 /// ```
 ///
-/// A lobe with two events, which `uc` chooses between:
+/// A lobe with two events, one of which `uc` selects:
 ///
 /// ```
 /// use lobe::Spectrum;
 /// use lobe::bxdf::{BxDF, BxdfFlags, BxdfSample};
 /// use lobe::glam::{Vec2, Vec3};
 ///
-/// /// A half-silvered window: reflects 30 % of the light like a mirror, and lets 70 % pass.
+/// /// A half-silvered window: reflects 30 % of the light like a mirror and transmits 70 %.
 /// #[derive(Clone, Copy)]
 /// struct HalfMirror;
 ///
@@ -153,18 +157,21 @@ impl BxdfSample {
 ///     }
 /// }
 /// ```
+#[doc(alias = "brdf")]
+#[doc(alias = "btdf")]
+#[doc(alias = "bsdf")]
 pub trait BxDF: Send + Sync {
-    /// What kind of lobe this is.
+    /// The kind of this lobe.
     fn flags(&self) -> BxdfFlags;
 
-    /// The value for a pair of directions, without the cosine, in 1/sr: finite and not negative. It
-    /// does not ask on which side of the surface they lie: [`Bsdf`](super::Bsdf) has decided that.
-    /// A delta lobe returns black.
+    /// Value for a pair of directions, without the cosine, in 1/sr: finite and not negative. It need not
+    /// test on which side of the surface they lie: [`Bsdf`](super::Bsdf) has done so. A delta lobe
+    /// returns black.
     fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum;
 
-    /// A direction `wi` for `wo`, drawn with the density [`pdf`](BxDF::pdf), or `None` when this lobe has
-    /// none for these samples. `uc` in `[0, 1)` chooses between the events that the lobe has, `u` in
-    /// `[0, 1)²` the direction; both are uniform and independent.
+    /// Samples a direction `wi` for `wo` with the density [`pdf`](BxDF::pdf); `None` if these sample values
+    /// give no direction. `uc` in `[0, 1)` selects one of the lobe's events, `u` in `[0, 1)²` the
+    /// direction; both are uniform and independent.
     #[inline]
     fn sample_f(&self, wo: Vec3, _uc: f32, u: Vec2) -> Option<BxdfSample> {
         let mut wi = cosine_hemisphere::sample(u);
@@ -181,47 +188,46 @@ pub trait BxDF: Send + Sync {
         })
     }
 
-    /// Density over solid angle with which `sample_f` gives `wi`; 0 for a delta lobe.
+    /// Density over solid angle with which `sample_f` returns `wi`; 0 for a delta lobe.
     #[inline]
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
         if same_hemisphere(wo, wi) { cosine_hemisphere::pdf(abs_cos_theta(wi)) } else { 0.0 }
     }
 
-    /// Whether `sample_f` looks at `uc`. A lobe that answers false spares its surface one sample value for
-    /// each hit, and is handed NaN.
+    /// Whether `sample_f` uses `uc`. If not, one sample value per hit is saved, and `uc` is NaN.
     #[inline]
     fn uses_uc(&self) -> bool {
         true
     }
 
-    /// About how much of a uniform light leaves along `wo`, in `[0, 1]`: the larger, the more often a
-    /// [`Bsdf`](super::Bsdf) of several lobes draws this one. It need not be exact, since values and
-    /// densities agree for any estimate; what is out of range is brought into it. The default treats all
-    /// lobes alike.
+    /// Estimated fraction of uniform incident light that is scattered along `wo`, in `[0, 1]`. A
+    /// [`Bsdf`](super::Bsdf) of several lobes selects lobes in proportion to it. It need not be exact: values
+    /// and densities agree for any estimate, and estimates out of range are clamped. The default selects all
+    /// lobes with equal probability.
     #[inline]
     fn albedo_estimate(&self, _wo: Vec3) -> f32 {
         1.0
     }
 
-    /// Hemispherical-directional reflectance ρ_hd: the share of a uniform light from all sides that
-    /// leaves along `wo`, in `[0, 1]` per band (PBRT 3rd edition, section 8.1.1).
+    /// Hemispherical-directional reflectance ρ_hd: the fraction of uniform incident light that is scattered
+    /// along `wo`, in `[0, 1]` per band (PBRT 3rd edition, section 8.1.1).
     ///
     /// The default is the Monte Carlo mean of f |cos θi| / pdf over the samples `uc` and `u` of
-    /// [`sample_f`](BxDF::sample_f). The longer slice is cut to the length of the shorter.
+    /// [`sample_f`](BxDF::sample_f). The longer slice is truncated to the length of the shorter.
     fn rho_hd(&self, wo: Vec3, uc: &[f32], u: &[Vec2]) -> Spectrum {
         let estimate = |(&uc, &u): (&f32, &Vec2)| throughput(self.sample_f(wo, uc, u));
         mean(uc.iter().zip(u).filter_map(estimate), uc.len().min(u.len()))
     }
 
-    /// Hemispherical-hemispherical reflectance ρ_hh: the share of a uniform light from all sides that
-    /// leaves again, in `[0, 1]` per band.
+    /// Hemispherical-hemispherical reflectance ρ_hh: the fraction of uniform incident light that is
+    /// scattered at all, in `[0, 1]` per band.
     ///
     /// The default is a Monte Carlo mean over triples of samples: `u1` for wo, uniform over the
-    /// hemisphere, `uc` and `u2` for wi. The longer slices are cut to the length of the shortest.
+    /// hemisphere, `uc` and `u2` for wi. The longer slices are truncated to the length of the shortest.
     fn rho_hh(&self, u1: &[Vec2], uc: &[f32], u2: &[Vec2]) -> Spectrum {
         let estimate = |((&u1, &uc), &u2): ((&Vec2, &f32), &Vec2)| {
             let wo = uniform_hemisphere::sample(u1);
-            // 1/π ∫ ρ_hd cos θo dωo, by the density of wo.
+            // 1/π ∫ ρ_hd cos θo dωo, divided by the density of wo.
             let weight = abs_cos_theta(wo) / (std::f32::consts::PI * uniform_hemisphere::pdf());
             let sample = (wo.z != 0.0).then(|| self.sample_f(wo, uc, u2)).flatten();
             throughput(sample).map(|t| t * weight)
@@ -230,14 +236,14 @@ pub trait BxDF: Send + Sync {
         mean(u1.iter().zip(uc).zip(u2).filter_map(estimate), count)
     }
 
-    /// Whether this lobe is among the kinds that `wanted` names.
+    /// Whether all flags of this lobe are among those in `wanted`.
     #[inline]
     fn matches(&self, wanted: BxdfFlags) -> bool {
         wanted.contains(self.flags())
     }
 }
 
-/// The sum over `count`, or black for a count of 0. In f64: the error of a long sum of f32 shows.
+/// The sum divided by `count`, or black if that is 0. In f64: a long sum in f32 loses visible accuracy.
 fn mean(estimates: impl Iterator<Item = Spectrum>, count: usize) -> Spectrum {
     let sum = estimates.fold(DVec3::ZERO, |sum, s| sum + Vec3::from(s.to_array()).as_dvec3());
     (sum / count.max(1) as f64).as_vec3().into()

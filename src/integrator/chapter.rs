@@ -1,4 +1,4 @@
-//! [`ChapterIntegrator`]: the chapter's estimator.
+//! [`ChapterIntegrator`]: the shading of the chapter that this crate started from.
 
 use std::sync::Arc;
 
@@ -12,20 +12,20 @@ use crate::params::{Fault, Key, Kind, Table};
 use crate::sampling::Sampler;
 use crate::scene::Scene;
 
-/// The chapter's way to show a surface before there is light transport: pdf · f · 3 for the direction
-/// to each light, without shadow, falloff or intensity (section 6.2).
+/// Local shading as in the chapter, which has no light transport yet: the sum of pdf · f · 3 over the
+/// directions to all lights, without shadows, falloff or intensity (section 6.2).
 ///
-/// What comes out is a brightness without a unit, not radiance. On a Lambertian surface it is 3 cos θ R / π².
-/// With `highlight` it is multiplied by the chapter's Blinn-Phong factor, 1.5 (0.2 + 0.2 (n · l) + 0.7 (n · h)³²), h halfway between viewer and light.
-/// Unlike there, n is the shading normal on the viewer's side, so that the winding of the mesh does
-/// not matter.
+/// The result is a brightness without a unit, not radiance. On a Lambertian surface it is 3 cos θ R / π².
+/// With `highlight` it is multiplied by the chapter's Blinn-Phong factor,
+/// 1.5 (0.2 + 0.2 (n · l) + 0.7 (n · h)³²), where h is halfway between viewer and light. Unlike in the chapter,
+/// n is the shading normal on the viewer's side, so that the winding of the mesh does not matter.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ChapterIntegrator {
     /// Whether to multiply by the Blinn-Phong factor.
     pub highlight: bool,
 }
 
-/// The chapter's factor against a picture that is too dark.
+/// The chapter's factor to brighten the image.
 const BRIGHTNESS: f32 = 3.0;
 
 impl Integrator for ChapterIntegrator {
@@ -55,7 +55,7 @@ impl Estimator for ChapterEstimator<'_> {
             let mut si = scene.interaction(ray, hit);
             let bsdf = scene.bsdf(hit, &mut si, arena);
             for (dimension, light) in (dimension::FIRST_LIGHT..).zip(scene.lights()) {
-                // A light without extent takes no sample.
+                // Delta lights use no sample value.
                 let u = if light.is_delta() {
                     Vec2::ZERO
                 } else {

@@ -1,4 +1,4 @@
-//! [`DirectIntegrator`]: light that comes straight from the lights.
+//! [`DirectIntegrator`]: emission and direct light.
 
 use std::sync::Arc;
 
@@ -8,13 +8,14 @@ use crate::light::{LightChoice, LightStrategy};
 use crate::params::{Choice, Fault, Kind, Table};
 use crate::scene::Scene;
 
-/// Radiance that is emitted, or reflected once: the sum over all lights, where nothing stands between
-/// (PBRT 3rd edition, section 14.3).
+/// Direct lighting: radiance that is emitted, or reflected once, with shadows (PBRT 3rd edition, section 14.3).
 ///
-/// These are paths of one reflection, on which each light is asked instead of one of them.
+/// It traces paths with a single reflection, and samples each light at a hit instead of one of them.
+#[doc(alias = "direct lighting")]
+#[doc(alias = "next-event estimation")]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DirectIntegrator {
-    /// How the directions that light comes from are drawn.
+    /// How directions to lights are sampled.
     pub strategy: LightStrategy,
 }
 

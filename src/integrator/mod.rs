@@ -1,7 +1,24 @@
-//! Integrators: how much light arrives along camera rays.
+//! Integrators: they estimate the radiance that arrives along camera rays.
 //!
-//! Each algorithm stands in its own file from top to bottom: [`ChapterIntegrator`], [`DirectIntegrator`],
-//! [`PathIntegrator`]. They work on waves of samples, stage by stage; the stages that they share are in `wave/`.
+//! Each algorithm reads from top to bottom in its own file: [`ChapterIntegrator`], [`DirectIntegrator`],
+//! [`PathIntegrator`]. They process samples in waves, stage by stage; `wave/` has the stages that they share.
+//!
+//! ```
+//! use lobe::integrator::DirectIntegrator;
+//! use lobe::light::SkyLight;
+//! use lobe::render::SamplerSettings;
+//! use lobe::scene::{FilmSettings, Scene, View};
+//! use lobe::{PerspectiveSettings, RenderOptions, RenderSettings, Spectrum, render};
+//!
+//! let sky = Spectrum::new(0.2, 0.4, 0.8);
+//! let scene = Scene::builder().light(SkyLight::new(sky)).build()?;
+//! let view = View::perspective(&PerspectiveSettings::default(), FilmSettings::new(8, 8))?;
+//! let settings = RenderSettings::new(SamplerSettings::default(), DirectIntegrator::default());
+//! let rendered = render(&scene, &view, &settings, &RenderOptions::default())?;
+//! // In an empty scene every pixel shows the sky.
+//! assert_eq!(rendered.picture.color[0], sky);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod chapter;
 mod direct;
@@ -17,5 +34,5 @@ pub use wave::{Counters, ShadowRays, Wave, dimension};
 
 use crate::params::Kind;
 
-/// All kinds of integrators.
+/// All kinds of integrators of scene files.
 pub static INTEGRATORS: &[Kind<Read>] = &[path::KIND, direct::KIND, chapter::KIND];

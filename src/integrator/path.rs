@@ -1,8 +1,8 @@
-//! [`PathIntegrator`]: light of any number of reflections. The whole path tracer, from top to bottom.
+//! [`PathIntegrator`]: path tracing. The whole algorithm is in this file, from top to bottom.
 //!
-//! Letters are those of the equations: β path throughput divided by path density, f the Bsdf, Li and Le light
-//! that arrives and is emitted, p densities, w the weight of multiple importance sampling. `wave/` has what
-//! the stages work on, and the same stages for four flat Lambertian hits at a time.
+//! Names are the letters of the equations: β path throughput divided by path density, f the BSDF, Li and Le
+//! incident and emitted radiance, p densities, w the weight of multiple importance sampling. `wave/` has the
+//! buffers of the stages, and the same stages for four flat Lambertian hits at a time.
 
 use std::sync::Arc;
 
@@ -20,27 +20,32 @@ use crate::params::{Choice, Fault, Key, Kind, Table};
 use crate::sampling::{SampleId, Sampler};
 use crate::scene::Scene;
 
-/// Unidirectional path tracing with next-event estimation: at each hit a light is sampled, and the path also
-/// finds lights by itself (PBRT 3rd edition, section 14.5.4). Both are weighed by multiple importance sampling
+/// Unidirectional path tracing with next-event estimation (PBRT 3rd edition, section 14.5.4): each hit samples
+/// a light, and the path may also hit lights itself. Multiple importance sampling combines both
 /// (section 13.10.1).
 ///
-/// With several lights, one is drawn at each hit: see [`LightSampler`](crate::light::LightSampler). The
+/// With several lights, one is selected at each hit: see [`LightSampler`](crate::light::LightSampler). The
 /// estimate is unbiased up to `max_depth` reflections.
+#[doc(alias = "path tracer")]
+#[doc(alias = "global illumination")]
+#[doc(alias = "russian roulette")]
+#[doc(alias = "next-event estimation")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PathIntegrator {
-    /// The most times that light is reflected or refracted: 0 shows the lights alone, 1 is direct light. Light
-    /// that takes longer is left out, which darkens what is bright by many reflections. (A faceted ball of
-    /// glass in a white furnace, which should give 1, gives 0.9976 with 64 and 1.0000 with 8192.)
+    /// Maximum number of reflections and refractions: 0 shows only light sources, 1 is direct light. Longer paths
+    /// are left out, which darkens scenes with much interreflection. (A faceted glass ball in a white furnace,
+    /// which should give 1, gives 0.9976 with 64 and 1.0000 with 8192.)
     pub max_depth: u32,
-    /// Russian roulette: from the fourth reflection on, paths with little throughput end at random, and the
-    /// survivors are weighted up, so that nothing is lost on average.
+    /// Russian roulette: from the fourth reflection on, paths of low throughput are ended at random, and the
+    /// weight of the survivors is increased, so that the estimate stays unbiased.
+    #[doc(alias = "russian roulette")]
     pub roulette: bool,
-    /// How the directions that light comes from are drawn.
+    /// How directions to lights are sampled.
     pub strategy: LightStrategy,
 }
 
 impl PathIntegrator {
-    /// Up to `max_depth` reflections, with Russian roulette and the strategy that suits each light.
+    /// Up to `max_depth` reflections, with Russian roulette and the strategy [`LightStrategy::Auto`].
     pub const fn new(max_depth: u32) -> Self {
         Self { max_depth, roulette: true, strategy: LightStrategy::Auto }
     }
@@ -67,7 +72,7 @@ impl Integrator for PathIntegrator {
     }
 }
 
-/// Paths through one scene.
+/// A path integrator prepared for one scene.
 pub(super) struct PathTracer<'a> {
     scene: &'a Scene,
     rules: PathRules,
@@ -88,89 +93,87 @@ impl<'a> PathTracer<'a> {
 impl Estimator for PathTracer<'_> {
     fn shade(&self, sampler: &dyn Sampler, wave: &mut Wave) {
         let Self { scene, rules } = self;
-        if !rules.finds_light() {
+        if !rules.has_lights() {
             return;
         }
         wave.paths.start(wave.rays.len());
         for depth in 0..=rules.max_depth {
-            // L += β Le w, of the lights that the rays have met.
+            // L += β Le w, for lights that the rays hit.
             self.add_emitted(wave, depth);
-            if depth == rules.max_depth || wave.paths.met.active.is_empty() {
+            if depth == rules.max_depth || wave.paths.by_hit.active.is_empty() {
                 break;
             }
-            // Uniform numbers, dimension by dimension.
+            // Sample values, dimension by dimension.
             self.draw_samples(sampler, &wave.ids, &mut wave.paths, depth);
             // Shadow rays that carry β f Li |cos θ| w / p, and next rays with β f |cos θ| / p.
             self.scatter(sampler, wave, depth);
-            // L += what a shadow ray carries, where nothing stands between.
+            // L += the radiance that a shadow ray carries, if it is not occluded.
             wave.counters.shadow_rays += wave.shadow.trace(scene, &mut wave.radiance);
-            // The surfaces that the next rays meet.
+            // Closest hits of the next rays.
             wave.counters.scattered_rays += wave.paths.trace(scene);
         }
     }
 
-    /// One to each light that is asked, and a last one into the sky.
+    /// One for each light sample, and a last one to the environment.
     fn shadow_rays(&self) -> usize {
         self.rules.lights.slots() + 1
     }
 }
 
 impl PathTracer<'_> {
-    /// Sorts paths by what their rays hit, and adds the emission of lights that they hit.
+    /// Sorts paths by what their rays hit, and adds the emission of lights among the hits.
     #[inline(never)]
     fn add_emitted(&self, wave: &mut Wave, depth: u32) {
         let Self { scene, rules } = self;
         let Wave { rays, hits, radiance, paths, .. } = wave;
-        let Paths { first, states, met, .. } = paths;
+        let Paths { first, states, by_hit, .. } = paths;
         let states = if depth == 0 { first } else { states };
         let (rays, hits) = if depth == 0 { (&*rays, &*hits) } else { (&paths.rays, &paths.hits) };
-        met.sort(scene, hits);
+        by_hit.sort(scene, hits);
         if !rules.infinite.is_empty() {
-            for place in met.escaped.iter().map(|&place| place as usize) {
-                let (path, ray) = (&states[place], &rays[place]);
+            for i in by_hit.escaped.iter().map(|&i| i as usize) {
+                let (path, ray) = (&states[i], &rays[i]);
                 let origin = if depth == 0 { ray.o } else { path.p };
                 radiance[path.sample as usize] += rules.escaped(scene, origin, ray.d, path);
             }
         }
-        if !rules.on_surfaces {
+        if !rules.has_area_lights {
             return;
         }
-        for place in met.active.iter().map(|&place| place as usize) {
-            let (path, ray, hit) = (&states[place], &rays[place], &hits[place]);
+        for i in by_hit.active.iter().map(|&i| i as usize) {
+            let (path, ray, hit) = (&states[i], &rays[i], &hits[i]);
             if let Some(light) = scene.light_at(hit) {
                 let si = scene.interaction(ray, hit);
-                // The surface point, not the offset ray origin: `sample_li` is asked about it, too.
+                // The surface point, not the offset ray origin: `sample_li` gets the same point.
                 let origin = if depth == 0 { ray.o } else { path.p };
                 let at = LightHit::on_surface(origin, &si);
-                radiance[path.sample as usize] += rules.found(scene, light, &at, path);
+                radiance[path.sample as usize] += rules.emitted(scene, light, &at, path);
             }
         }
     }
 
-    /// Sample values for the paths that go on.
+    /// Generates the sample values of the active paths.
     #[inline(never)]
     fn draw_samples(&self, sampler: &dyn Sampler, ids: &[SampleId], paths: &mut Paths, depth: u32) {
         let rules = &self.rules;
-        let Paths { first, states, met, values, .. } = paths;
+        let Paths { first, states, by_hit, values, .. } = paths;
         let states = if depth == 0 { first } else { states };
-        if !(rules.goes_on(depth) || rules.has_places || rules.lights.draws()) {
+        if !(rules.samples_direction(depth) || rules.needs_light_u || rules.lights.draws()) {
             return;
         }
         values.ids.clear();
-        values
-            .ids
-            .extend(met.active.iter().map(|&place| ids[states[place as usize].sample as usize]));
+        values.ids.extend(by_hit.active.iter().map(|&i| ids[states[i as usize].sample as usize]));
         let first = dimension::of_depth(depth);
-        if rules.goes_on(depth) {
+        if rules.samples_direction(depth) {
             sampler.fill_2d(&values.ids, first + dimension::DIRECTION, &mut values.direction);
         }
-        if rules.has_places {
+        if rules.needs_light_u {
             sampler.fill_2d(&values.ids, first + dimension::LIGHT, &mut values.light);
         }
         if rules.lights.draws() {
             sampler.fill_1d(&values.ids, first + dimension::CHOICE, &mut values.choice);
         }
-        if rules.throws(depth) {
+        if rules.uses_roulette(depth) {
             sampler.fill_1d(&values.ids, first + dimension::ROULETTE, &mut values.roulette);
         }
     }
@@ -180,12 +183,12 @@ impl PathTracer<'_> {
     fn scatter(&self, sampler: &dyn Sampler, wave: &mut Wave, depth: u32) {
         let Self { scene, rules } = self;
         let Wave { rays, hits, paths, shadow, arena, counters, .. } = wave;
-        let Paths { first, states, met, values, next_states, next_rays, .. } = paths;
+        let Paths { first, states, by_hit, values, next_states, next_rays, .. } = paths;
         let states = if depth == 0 { first } else { states };
         let (rays, hits) = if depth == 0 { (&*rays, &*hits) } else { (&paths.rays, &paths.hits) };
-        let at = |place: u32| {
-            let place = place as usize;
-            (&states[place], &rays[place], &hits[place])
+        let at = |i: u32| {
+            let i = i as usize;
+            (&states[i], &rays[i], &hits[i])
         };
         let mut vertices = Vertices {
             rules,
@@ -200,50 +203,50 @@ impl PathTracer<'_> {
             rejected: 0,
         };
         // Flat Lambertian hits, four at a time, in three short loops: out-of-order execution then overlaps
-        // several iterations of each.
+        // several iterations of each. `lane` is the index of a hit in its block.
         let mut fetched = Fetched::new();
         let mut flat = ArrayVec::<_, { BLOCK / 4 }>::new();
-        let (fours, _) = met.active[..met.flat].as_chunks::<4>();
+        let (fours, _) = by_hit.active[..by_hit.flat].as_chunks::<4>();
         for (block, fours) in fours.chunks(BLOCK / 4).enumerate() {
-            for (i, &place) in fours.as_flattened().iter().enumerate() {
-                let (_, ray, hit) = at(place);
-                fetched.set(i, scene, ray, hit);
+            for (lane, &path) in fours.as_flattened().iter().enumerate() {
+                let (_, ray, hit) = at(path);
+                fetched.set(lane, scene, ray, hit);
             }
             flat.clear();
-            for (i, places) in fours.iter().enumerate() {
-                flat.push(FlatHits::new(&fetched, i, four(|i| at(places[i]).0)));
+            for (i, paths) in fours.iter().enumerate() {
+                flat.push(FlatHits::new(&fetched, i, four(|lane| at(paths[lane]).0)));
             }
             vertices.scatter_flat(BLOCK * block, &flat);
             for (i, _) in flat.iter().enumerate().filter(|(_, hits)| !hits.sound) {
-                for (turn, &place) in (BLOCK * block + 4 * i..).zip(&fours[i]) {
-                    scatter_one(&mut vertices, turn, at(place));
+                for (vertex, &path) in (BLOCK * block + 4 * i..).zip(&fours[i]) {
+                    scatter_one(&mut vertices, vertex, at(path));
                 }
             }
         }
         // All others, one by one.
-        for (turn, &place) in met.active.iter().enumerate().skip(4 * fours.len()) {
-            scatter_one(&mut vertices, turn, at(place));
+        for (vertex, &path) in by_hit.active.iter().enumerate().skip(4 * fours.len()) {
+            scatter_one(&mut vertices, vertex, at(path));
         }
         counters.rejected += vertices.rejected;
         arena.reset();
     }
 }
 
-/// One vertex of one path: light samples, and the next ray.
+/// Scatters one path at one vertex: light samples, and the next ray.
 #[inline(never)]
-fn scatter_one(vertices: &mut Vertices, turn: usize, (path, ray, hit): (&Path, &Ray, &Hit)) {
+fn scatter_one(vertices: &mut Vertices, vertex: usize, (path, ray, hit): (&Path, &Ray, &Hit)) {
     let Vertices { rules, scene, sampler, values, depth, arena, .. } = *vertices;
     let mut si = scene.interaction(ray, hit);
     let bsdf = scene.bsdf(hit, &mut si, arena);
     let (wo, beta, all) = (si.wo(), path.beta, BxdfFlags::all());
 
-    // Light samples, weighed against finding the light by reflection: β f Li |cos θ| w / p.
+    // Light samples, each weighted against hitting the light by BSDF sampling: β f Li |cos θ| w / p.
     for slot in 0..rules.lights.slots() {
-        let (number, u) = vertices.drawn(slot, turn);
-        let light = &*scene.lights()[number];
+        let (index, u) = vertices.choose_light(slot, vertex);
+        let light = &*scene.lights()[index];
         let Some(LightSample { li, wi, pdf, from }) = light.sample_li(si.p(), u) else { continue };
-        let pdf = pdf * rules.lights.probability(number);
-        let (f, w) = if rules.weighs(number) {
+        let pdf = pdf * rules.lights.probability(index);
+        let (f, w) = if rules.uses_mis(index) {
             let (f, scattering_pdf) = bsdf.f_and_pdf(wo, wi, all);
             (f, power_heuristic(pdf, scattering_pdf))
         } else {
@@ -258,32 +261,34 @@ fn scatter_one(vertices: &mut Vertices, turn: usize, (path, ray, hit): (&Path, &
     }
 
     // The next direction: β f |cos θ| / p.
-    let sample = rules.goes_on(depth).then(|| {
+    let sample = rules.samples_direction(depth).then(|| {
         let uc = match bsdf.uses_uc() {
-            true => sampler.get_1d(values.ids[turn], dimension::event(depth)),
+            true => sampler.get_1d(values.ids[vertex], dimension::event(depth)),
             false => f32::NAN,
         };
-        bsdf.sample_f(wo, uc, values.direction[turn], all)
+        bsdf.sample_f(wo, uc, values.direction[vertex], all)
     });
     vertices.rejected += u64::from(bsdf.rejected());
     let Some(sample) = sample.flatten() else { return };
     let mut next = Path {
         beta: beta * sample.f * (bsdf.abs_cos_theta(sample.wi) / sample.pdf),
         p: si.p(),
-        // Light sampling never finds the direction of a delta lobe: no weight for it.
+        // Light sampling cannot find the direction of a delta event: its weight has to be 1.
         pdf: if sample.is_specular() { f32::INFINITY } else { sample.pdf },
         eta_scale: path.eta_scale * sample.eta * sample.eta,
         sample: path.sample,
     };
-    if next.beta.is_black() || (rules.throws(depth) && !next.survives(values.roulette[turn])) {
+    if next.beta.is_black()
+        || (rules.uses_roulette(depth) && !next.survives(values.roulette[vertex]))
+    {
         return;
     }
     let ray = si.spawn_ray(sample.wi);
-    if rules.walks_on(depth) {
+    if rules.extends_path(depth) {
         vertices.next_states.push(next);
         vertices.next_rays.push(ray);
     } else {
-        // Only lights that surround the scene are left to be found: a shadow ray tells whether they are.
+        // Only infinite lights are left to be hit: a shadow ray tests whether they are visible.
         let found = rules.escaped(scene, next.p, sample.wi, &next);
         if !found.is_black() {
             vertices.shadow.push(next.sample as usize, ray, found);
@@ -291,11 +296,12 @@ fn scatter_one(vertices: &mut Vertices, turn: usize, (path, ray, hit): (&Path, &
     }
 }
 
-/// As many as in PBRT by default.
+/// PBRT's default.
 const MAX_DEPTH: Key<u32> =
-    Key::new("max_depth", "the most times that light is reflected").default(5);
+    Key::new("max_depth", "maximum number of reflections and refractions").default(5);
 const ROULETTE: Key<bool> =
-    Key::new("roulette", "whether paths that carry little end at random").default(true);
+    Key::new("roulette", "Russian roulette: whether paths of low throughput end at random")
+        .default(true);
 
 /// `type = "path"`
 pub(super) const KIND: Kind<Read> = Kind {

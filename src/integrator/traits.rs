@@ -1,4 +1,4 @@
-//! The contracts of integrators.
+//! [`Integrator`] and [`Estimator`], the traits of integrators.
 
 use std::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
@@ -8,10 +8,10 @@ use crate::params::{Fault, Table};
 use crate::sampling::Sampler;
 use crate::scene::Scene;
 
-/// How a kind of integrator is read.
+/// Function that reads a kind of integrator from a scene file.
 pub type Read = fn(&Table) -> Result<Arc<dyn Integrator>, Fault>;
 
-/// A way to compute how much light arrives along camera rays: plain settings, for any scene.
+/// An algorithm that estimates the radiance along camera rays. It holds settings only, and serves any scene.
 ///
 /// ```
 /// use lobe::Spectrum;
@@ -19,7 +19,7 @@ pub type Read = fn(&Table) -> Result<Arc<dyn Integrator>, Fault>;
 /// use lobe::sampling::Sampler;
 /// use lobe::scene::Scene;
 ///
-/// /// Shows how far away things are.
+/// /// Shows the distance to the surface.
 /// struct Depth;
 ///
 /// impl Integrator for Depth {
@@ -39,16 +39,15 @@ pub type Read = fn(&Table) -> Result<Arc<dyn Integrator>, Fault>;
 /// }
 /// ```
 pub trait Integrator: Send + Sync {
-    /// Makes the integrator ready for a scene: what follows from the scene's lights and surfaces is found
-    /// once, before there are samples.
+    /// Prepares the integrator for a scene: computes once what depends on the scene's lights and surfaces.
     fn prepare<'a>(&'a self, scene: &'a Scene) -> Box<dyn Estimator + 'a>;
 
-    /// What it is, with its settings, in one line for people. Two integrators with the same line count as one.
+    /// Name and settings, in one line for people. Integrators with equal descriptions are taken to be equal.
     fn describe(&self) -> String {
         "of another crate".to_owned()
     }
 
-    /// The integrator as settings hold it.
+    /// Wraps the integrator for settings, without a second `Arc` around one that is shared.
     #[doc(hidden)]
     fn into_arc(self) -> Arc<dyn Integrator>
     where
@@ -58,7 +57,7 @@ pub trait Integrator: Send + Sync {
     }
 }
 
-/// As it describes itself.
+/// Its description.
 impl Debug for dyn Integrator + '_ {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         f.write_str(&self.describe())
@@ -79,16 +78,16 @@ impl Integrator for Arc<dyn Integrator> {
     }
 }
 
-/// An integrator that was made ready for one scene. It works on many camera rays at once, a [`Wave`], so that
-/// rays can be traced in batches.
+/// An integrator prepared for one scene. It processes many camera rays together, a [`Wave`], so that rays can be
+/// traced in batches.
 pub trait Estimator: Send + Sync {
-    /// Adds to `wave.radiance` what arrives along each camera ray, whose hits are known already.
-    /// Samples come from `sampler` by the number in `wave.ids`, in dimensions from
+    /// Adds to `wave.radiance` the radiance along each camera ray, whose hit is in `wave.hits`. Sample values
+    /// come from `sampler` for the samples `wave.ids`, in dimensions from
     /// [`dimension::FIRST_LIGHT`](super::dimension::FIRST_LIGHT) on.
     fn shade(&self, sampler: &dyn Sampler, wave: &mut Wave);
 
-    /// The most rays towards lights that a sample has waiting at a time, so that room can be made for them
-    /// beforehand.
+    /// Maximum number of shadow rays per sample that are buffered at the same time. Buffers are allocated for
+    /// it.
     fn shadow_rays(&self) -> usize {
         1
     }

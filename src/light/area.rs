@@ -1,4 +1,4 @@
-//! [`AreaLight`].
+//! [`AreaLight`]: emission from the triangles of a mesh.
 
 use std::f32::consts::PI;
 
@@ -13,21 +13,24 @@ use crate::sampling::{Discrete, uniform_triangle};
 use crate::shape::{TriangleMesh, triangle_normal};
 use crate::spectrum::Spectrum;
 
-/// A mesh whose surface radiates alike in all directions of its outer side, or of both sides (PBRT 3rd
+/// A mesh that emits the same radiance in all directions, from its outer side or from both sides (PBRT 3rd
 /// edition, sections 12.5 and 14.2.2).
 ///
-/// Outside is as for [`SurfaceInteraction`](crate::interaction::SurfaceInteraction): the side from which the
-/// corners run counter-clockwise, unless the mesh has vertex normals that say otherwise.
+/// The outer side is that of [`SurfaceInteraction`](crate::interaction::SurfaceInteraction): where the
+/// corners run counter-clockwise, unless vertex normals point to the other side.
 ///
-/// Points are drawn uniformly over the area. Of a mesh that is one flat rectangle they are drawn uniformly
-/// over the solid angle, unless that is below 1e-6 sr.
+/// Points are sampled uniformly by area. If the mesh is one flat rectangle, they are sampled uniformly by
+/// solid angle instead, down to 1e-6 sr.
+#[doc(alias = "diffuse area light")]
+#[doc(alias = "emission")]
+#[doc(alias = "emitter")]
 #[derive(Clone, Debug)]
 pub struct AreaLight {
-    /// The triangles with their normals.
+    /// Triangles of non-zero area, with their vertex normals.
     mesh: TriangleMesh,
-    /// A choice among them by area.
+    /// Selects a triangle in proportion to its area.
     triangles: Discrete,
-    /// The sum of their areas.
+    /// Total area, in squared scene units.
     area: f64,
     rectangle: Option<Rectangle>,
     radiance: Spectrum,
@@ -35,11 +38,10 @@ pub struct AreaLight {
 }
 
 impl AreaLight {
-    /// A light in the form of `mesh`, in world space, that sends out the radiance `radiance`, in W / (m² sr).
-    /// The mesh must have passed [`TriangleMesh::check`]. `None` when it has no area: triangles without any
-    /// send out nothing.
+    /// A light with the shape of `mesh`, in world space, that emits `radiance`, in W / (m² sr). The mesh must
+    /// have passed [`TriangleMesh::check`]. `None` if it has no area. Triangles without area are ignored.
     pub fn new(mesh: &TriangleMesh, radiance: Spectrum, two_sided: bool) -> Option<Self> {
-        // The parts that the light needs: no texture coordinates, and no triangles without area.
+        // Emission needs neither texture coordinates nor triangles without area.
         let has_area = |t: &usize| mesh.geometric_normal(*t) != Vec3::ZERO;
         let indices = (0..mesh.indices.len()).filter(has_area).map(|t| mesh.indices[t]).collect();
         let mesh = TriangleMesh {
@@ -55,7 +57,7 @@ impl AreaLight {
         Some(Self { mesh, triangles, area, rectangle, radiance, two_sided })
     }
 
-    /// A point drawn uniformly over the area, and the unit outward normal there.
+    /// A point sampled uniformly by area, and the unit outward normal there.
     #[inline]
     fn sample_area(&self, u: Vec2) -> (BoundedPoint, Vec3) {
         let (triangle, _, rest) = self.triangles.sample(u.x);
@@ -67,15 +69,15 @@ impl AreaLight {
         (BoundedPoint::on_triangle(corners, b), if inward { -n } else { n })
     }
 
-    /// Density over solid angle of a point drawn by area, d² / (cos θ A); infinite at cos θ = 0. `cos_theta`
-    /// is that of the normal and the direction to the viewer.
+    /// Density over solid angle of a point sampled by area, d² / (cos θ A); infinite at cos θ = 0. `cos_theta`
+    /// is the cosine between the outward normal and the direction to the receiver.
     #[inline]
     fn pdf_by_area(&self, distance: f32, cos_theta: f32) -> f32 {
         let distance = f64::from(distance);
         (distance * distance / (f64::from(cos_theta.abs()) * self.area)) as f32
     }
 
-    /// Whether light leaves to the side where the cosine to the outward normal is `cos_theta`.
+    /// Whether light is emitted towards directions whose cosine with the outward normal is `cos_theta`.
     #[inline]
     fn shines(&self, cos_theta: f32) -> bool {
         cos_theta > 0.0 || (self.two_sided && cos_theta < 0.0)
@@ -109,7 +111,7 @@ impl Light for AreaLight {
         };
         let to_light = point.p - p;
         let wi = unit(to_light).filter(|_| pdf > 0.0 && pdf < f32::INFINITY)?;
-        // A ray from `p` ends where rounding of its own direction and distance leaves it.
+        // A shadow ray from `p` misses the point by the rounding of its direction and distance.
         let error = point.error + gamma(8) * to_light.abs();
         let from = BoundedPoint { p: point.p, error }.ray_origin(n, -to_light);
         Some(LightSample { li: self.radiance, wi, pdf, from: Some(from) })
@@ -129,13 +131,13 @@ impl Light for AreaLight {
         if pdf < f32::INFINITY { pdf } else { 0.0 }
     }
 
-    /// The light's radiance, if the ray comes from a side that shines.
+    /// The light's radiance, if the ray arrives on a side that emits.
     #[inline]
     fn le(&self, hit: &LightHit) -> Spectrum {
         if self.shines(-hit.n.dot(hit.wi)) { self.radiance } else { Spectrum::BLACK }
     }
 
-    /// π A L, from both sides twice that.
+    /// π A L, twice that for both sides.
     fn power(&self, _scene: &BoundingSphere) -> Option<Spectrum> {
         let sides = if self.two_sided { 2.0 } else { 1.0 };
         Some(self.radiance * (sides * PI * self.area as f32))
@@ -155,7 +157,7 @@ fn triangle_area(corners: [Vec3; 3]) -> f64 {
     (p1 - p0).cross(p2 - p0).length() / 2.0
 }
 
-/// The rectangle that the mesh is, if it is one with one outer side.
+/// The rectangle that the mesh forms, if it is one and has one outer side.
 fn find_rectangle(mesh: &TriangleMesh, two_sided: bool) -> Option<Rectangle> {
     let [_, _] = mesh.indices[..] else { return None };
     let [first, second] = [outward(mesh, 0)?, outward(mesh, 1)?];
@@ -165,7 +167,7 @@ fn find_rectangle(mesh: &TriangleMesh, two_sided: bool) -> Option<Rectangle> {
     Rectangle::new([mesh.corners(0), mesh.corners(1)], first)
 }
 
-/// The unit outward normal of a triangle, when it is the same everywhere on it.
+/// Unit outward normal of a triangle, if its vertex normals agree on the outer side.
 fn outward(mesh: &TriangleMesh, triangle: usize) -> Option<Vec3> {
     let n = mesh.geometric_normal(triangle);
     let corners = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];

@@ -1,4 +1,4 @@
-//! [`DistantLight`].
+//! [`DistantLight`]: parallel light.
 
 use std::f32::consts::PI;
 use std::sync::Arc;
@@ -10,8 +10,9 @@ use crate::geometry::unit;
 use crate::params::{Direction, Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
 
-/// A light from infinitely far away whose rays are parallel, like the sun's (PBRT 3rd edition,
-/// section 12.4).
+/// Parallel light from an infinite distance, like the sun's (PBRT 3rd edition, section 12.4).
+#[doc(alias = "directional")]
+#[doc(alias = "sun")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DistantLight {
     towards: Vec3,
@@ -19,8 +20,8 @@ pub struct DistantLight {
 }
 
 impl DistantLight {
-    /// Light from the direction `towards` the light, in world space and of any length, that gives a surface
-    /// across it the irradiance `irradiance`, in W / m². `None` when `towards` is zero or not finite.
+    /// Light from the direction `towards` the light, in world space and of any length. `irradiance`, in W / m²,
+    /// is what a surface perpendicular to the light receives. `None` if `towards` is zero or not finite.
     pub fn new(towards: Vec3, irradiance: Spectrum) -> Option<Self> {
         Some(Self { towards: unit(towards)?, irradiance })
     }
@@ -31,21 +32,22 @@ impl Light for DistantLight {
         true
     }
 
-    /// The same everywhere.
+    /// Independent of the point.
     #[inline]
     fn sample_li(&self, _p: Vec3, _u: Vec2) -> Option<LightSample> {
         Some(LightSample { li: self.irradiance, wi: self.towards, pdf: 1.0, from: None })
     }
 
-    /// E π r²: what goes through the disk that the scene's sphere is seen as.
+    /// E π r²: the light that passes through the cross section of the scene's bounding sphere.
     fn power(&self, scene: &BoundingSphere) -> Option<Spectrum> {
         Some(self.irradiance * (PI * scene.radius * scene.radius))
     }
 }
 
-const DIRECTION: Key<Direction> = Key::new("direction", "where the light goes, of any length");
+const DIRECTION: Key<Direction> =
+    Key::new("direction", "where the light travels to, of any length");
 const IRRADIANCE: Key<Spectrum> =
-    Key::new("irradiance", "on a surface across the light, in W / m²").at_least(0.0);
+    Key::new("irradiance", "on a surface perpendicular to the light, in W / m²").at_least(0.0);
 
 /// `type = "distant"`
 pub(super) const KIND: Kind<Read> = Kind {
@@ -58,7 +60,7 @@ pub(super) const KIND: Kind<Read> = Kind {
 fn read(table: &Table) -> Result<Arc<dyn Light>, Fault> {
     let irradiance = table.get(&IRRADIANCE)?;
     let Direction(direction) = table.get(&DIRECTION)?;
-    // The light knows where it comes from, a file says where it goes.
+    // The constructor takes the direction towards the light, a scene file the direction of travel.
     let light = DistantLight::new(-direction, irradiance);
     light.map(|light| Arc::new(light) as _).ok_or_else(|| table.missing(&DIRECTION))
 }

@@ -1,25 +1,25 @@
-//! [`LightSampler`]: which of the scene's lights a surface asks.
+//! [`LightSampler`]: which of the scene's lights are sampled at a hit.
 
 use std::sync::Arc;
 
 use super::{BoundingSphere, Light};
 use crate::sampling::Discrete;
 
-/// Which lights are asked at a hit.
+/// How many lights are sampled at each hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LightChoice {
-    /// Each of them.
+    /// All of them.
     All,
-    /// One, drawn by power.
+    /// One, selected by power.
     One,
 }
 
-/// The choice of lights at a hit: all of those that are sampled, or one of them, the likelier the more power
-/// it has (PBRT 3rd edition, section 14.3; Shirley, Wang and Zimmerman 1996).
+/// Selects lights at a hit: all lights that are sampled, or one of them with a probability that grows with
+/// its power (PBRT 3rd edition, section 14.3; Shirley, Wang and Zimmerman 1996).
 ///
-/// Nine tenths of the probability follow power, and one tenth is shared alike. So each light that is sampled
-/// is drawn at all, one that gives no power or does not know it too; and where a weak light is the only one
-/// that shines, it is not all noise.
+/// Nine tenths of the probability are proportional to power, and one tenth is uniform. So lights of zero or
+/// unknown power are selected too, and noise stays bounded where a weak light is the only one that
+/// contributes.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -38,19 +38,19 @@ pub enum LightChoice {
 /// ```
 #[derive(Clone, Debug)]
 pub struct LightSampler {
-    /// The numbers of the lights that are sampled.
+    /// Indices of the lights that are sampled.
     sampled: Vec<usize>,
-    /// How one of these is drawn; `None` if all are asked.
+    /// Selects an element of `sampled`; `None` if all of them are sampled at each hit.
     by_power: Option<Discrete>,
-    /// By light: how likely a hit asks it.
+    /// Per light of the scene: probability that a hit samples it.
     probability: Vec<f32>,
 }
 
 impl LightSampler {
-    /// A choice among those of `lights` whose numbers are in `sampled`, in a scene with these bounds.
+    /// Selects among those of `lights` whose indices are in `sampled`, in a scene with these bounds.
     ///
     /// # Panics
-    /// If a number is not that of a light.
+    /// If an index in `sampled` is out of range.
     pub fn new(
         lights: &[Arc<dyn Light>],
         sampled: Vec<usize>,
@@ -66,51 +66,51 @@ impl LightSampler {
         }
         let powers = sampled.iter().map(|&light| power(&*lights[light], scene)).collect();
         let by_power = Discrete::new(shares(powers));
-        for (place, &light) in sampled.iter().enumerate() {
-            probability[light] = by_power.as_ref().map_or(1.0, |shares| shares.probability(place));
+        for (index, &light) in sampled.iter().enumerate() {
+            probability[light] = by_power.as_ref().map_or(1.0, |shares| shares.probability(index));
         }
         Self { sampled, by_power, probability }
     }
 
-    /// The numbers of all lights that are sampled.
+    /// Indices of all lights that are sampled.
     pub fn sampled(&self) -> &[usize] {
         &self.sampled
     }
 
-    /// How many lights a hit asks.
+    /// Number of lights that each hit samples.
     #[inline]
     pub fn slots(&self) -> usize {
         if self.draws() { 1 } else { self.sampled.len() }
     }
 
-    /// Whether one light is drawn, so that [`pick`](Self::pick) looks at `u`.
+    /// Whether one light is selected at random, so that [`pick`](Self::pick) uses `u`.
     #[inline]
     pub fn draws(&self) -> bool {
         self.by_power.is_some()
     }
 
-    /// The number of the light that a hit asks in this slot; `u` in `[0, 1)`.
+    /// Index of the light to sample for light sample `slot` of a hit, with `u` in `[0, 1)`.
     #[inline]
     pub fn pick(&self, slot: usize, u: f32) -> usize {
-        let place = self.by_power.as_ref().map_or(slot, |by_power| by_power.sample(u).0);
-        self.sampled[place]
+        let index = self.by_power.as_ref().map_or(slot, |by_power| by_power.sample(u).0);
+        self.sampled[index]
     }
 
-    /// How likely a hit asks the light with this number: 0 for one that is not sampled.
+    /// Probability that a hit samples the light with this index: 0 if it is never sampled.
     #[inline]
     pub fn probability(&self, light: usize) -> f32 {
         self.probability[light]
     }
 }
 
-/// The sum over the bands; `None` if it is not known, or not a number.
+/// Power summed over the bands; `None` if it is unknown or NaN.
 fn power(light: &dyn Light, scene: &BoundingSphere) -> Option<f64> {
     let power = light.power(scene)?.to_array().map(f64::from).iter().sum::<f64>();
-    // What is beyond all floats is as bright as can be told.
+    // Clamped to the largest f32, so that sums stay finite.
     (!power.is_nan()).then(|| power.clamp(0.0, f32::MAX.into()))
 }
 
-/// How likely each light is drawn. What is not known counts as the mean of what is.
+/// Selection probability of each light. Unknown powers count as the mean of the known ones.
 fn shares(powers: Vec<Option<f64>>) -> Vec<f64> {
     let known: Vec<f64> = powers.iter().copied().flatten().collect();
     let mean = match known.iter().sum::<f64>() / known.len() as f64 {

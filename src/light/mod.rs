@@ -1,4 +1,19 @@
-//! Lights: the contract [`Light`], one kind per file, and which of several a surface asks.
+//! Light sources: the trait [`Light`], one kind per file, and [`LightSampler`], which selects among several.
+//!
+//! ```
+//! use lobe::Spectrum;
+//! use lobe::glam::{Vec2, Vec3};
+//! use lobe::light::{Light, PointLight};
+//!
+//! // A lamp of 8 W / sr, 2 units above the origin.
+//! let lamp = PointLight::new(Vec3::new(0.0, 2.0, 0.0), Spectrum::splat(8.0));
+//! let sample = lamp.sample_li(Vec3::ZERO, Vec2::new(0.5, 0.5)).unwrap();
+//! assert_eq!(sample.wi, Vec3::Y);
+//! // A surface that faces the lamp receives the irradiance I / d².
+//! assert_eq!(sample.li, Spectrum::splat(8.0 / 4.0));
+//! // No ray can hit a point.
+//! assert!(lamp.is_delta());
+//! ```
 
 mod area;
 mod distant;
@@ -20,5 +35,5 @@ pub use traits::{BoundingSphere, Light, LightHit, LightSample, LightSamplesX4, R
 
 use crate::params::Kind;
 
-/// All kinds of lights that stand alone; surfaces that emit are shapes.
+/// All kinds of lights of scene files. Surfaces that emit are shapes.
 pub static LIGHTS: &[Kind<Read>] = &[point::KIND, distant::KIND, sky::KIND];

@@ -1,4 +1,4 @@
-//! [`PointLight`].
+//! [`PointLight`]: an isotropic point source.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::geometry::four::{Vec3x4, four};
 use crate::params::{Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
 
-/// A light without extent that shines alike in all directions (PBRT 3rd edition, section 12.3).
+/// A point that emits the same intensity in all directions (PBRT 3rd edition, section 12.3).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointLight {
     position: Vec3,
@@ -28,7 +28,7 @@ impl Light for PointLight {
         true
     }
 
-    /// The irradiance falls with the square of the distance, I / d². None at the light itself.
+    /// Irradiance falls with the squared distance, I / d². `None` at the light's own position.
     #[inline]
     fn sample_li(&self, p: Vec3, _u: Vec2) -> Option<LightSample> {
         let to_light = self.position - p;

@@ -1,4 +1,4 @@
-//! [`Rectangle`]: two triangles that are one, sampled by solid angle.
+//! [`Rectangle`]: two triangles that form a rectangle, sampled by solid angle.
 
 use glam::{BVec4A, DVec2, DVec3, Vec2, Vec3, Vec4};
 
@@ -9,27 +9,27 @@ use crate::geometry::four::{BoundedPointx4, Vec3x4};
 use crate::sampling::{LEAST_SOLID_ANGLE, Seen, SeenX4};
 use crate::spectrum::Spectrum;
 
-/// By how much of its shorter edge a corner may be out of place.
+/// Largest displacement of a corner from an exact rectangle, relative to the shorter edge.
 const MOST_SKEW: f64 = 1e-4;
 
-/// A rectangle, prepared for points that see it.
+/// A rectangle, prepared for sampling from any point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rectangle {
     corner: DVec3,
     axes: [DVec3; 2],
     normal: DVec3,
     size: DVec2,
-    /// Bounds on the error of its points, by axis.
+    /// Bounds on the absolute error of points sampled on it, per axis.
     error: Vec3,
 }
 
 impl Rectangle {
-    /// The rectangle that two triangles with the outward normal `outward` make up, if they do: they share
-    /// their longest side, the other two of each are at right angles, and all four corners are where they
-    /// have to be, up to the rounding of their coordinates. Corners are compared by place.
+    /// The rectangle that two triangles with the outward normal `outward` form. They have to share their
+    /// longest side, the other two sides of each have to be perpendicular, and all four corners have to
+    /// match up to the rounding of their coordinates. Corners are compared by position.
     pub(super) fn new(triangles: [[Vec3; 3]; 2], outward: Vec3) -> Option<Self> {
         let [first, second] = triangles;
-        // The corner that each has for itself, and the two that both have.
+        // The corner that only one triangle has, and the two shared corners.
         let mut own = second.into_iter().filter(|p| !first.contains(p));
         let opposite = own.next().filter(|_| own.next().is_none())?;
         let alone = first.iter().position(|p| !second.contains(p))?;
@@ -56,7 +56,7 @@ impl Rectangle {
         let normal = if normal.dot(outward.as_dvec3()) < 0.0 { -normal } else { normal };
         let y = (edge_y - x * x.dot(edge_y)).normalize();
         // Points in f32 take up to ten roundings of coordinates: axes, products, sums. And the triangle test
-        // finds a ray's distance from those of the corners, which may be this much farther away.
+        // computes a ray's distance from those of the corners, which may be farther away by `reach`.
         let reach = Vec3::splat(gamma(8) * (size.x + size.y) as f32);
         let error =
             gamma(16) * largest + reach + 2.0 * Vec3::splat(slack as f32).min(gamma(8) * largest);
@@ -69,8 +69,8 @@ impl Rectangle {
         self.normal.as_vec3()
     }
 
-    /// Density of the points that [`sample`](Self::sample) draws, and whether `p` is on the outer side; `None` where
-    /// light points are better drawn by area: under a solid angle that is small, or zero.
+    /// Density of the points that [`sample`](Self::sample) draws, and whether `p` is on the outer side; `None` if
+    /// the solid angle is too small, and points should be sampled by area.
     #[inline]
     pub(super) fn pdf(&self, p: Vec3) -> Option<(f32, bool)> {
         let (seen, outside) = self.seen_from_x4(Vec3x4::splat(p));
@@ -81,8 +81,8 @@ impl Rectangle {
         Some(((1.0 / seen.solid_angle) as f32, outside))
     }
 
-    /// A point drawn uniformly over the solid angle under which `p` sees the rectangle, its density, and whether `p` is
-    /// on the outer side.
+    /// A point sampled uniformly by the solid angle that the rectangle subtends at `p`, its density, and
+    /// whether `p` is on the outer side.
     #[inline]
     pub(super) fn sample(&self, p: Vec3, u: Vec2) -> Option<(BoundedPoint, f32, bool)> {
         let (seen, outside) = self.seen_from_x4(Vec3x4::splat(p));
@@ -98,7 +98,7 @@ impl Rectangle {
         Some((point, (1.0 / seen.solid_angle) as f32, outside))
     }
 
-    /// Points drawn from four that see the rectangle.
+    /// One sampled point for each of four receivers.
     #[inline(always)]
     fn points_x4(&self, seen: &SeenX4, u: [Vec2; 4]) -> Vec3x4 {
         let [x, y] = seen.sample(u);
@@ -106,7 +106,7 @@ impl Rectangle {
         Vec3x4::splat(self.corner.as_vec3()) + axis_x * x + axis_y * y
     }
 
-    /// The rectangle as `p` sees it, in f64, and whether `p` is on the outer side.
+    /// The rectangle in coordinates relative to `p`, in f64, and whether `p` is on the outer side.
     #[inline]
     fn seen_from(&self, p: Vec3) -> Option<(Seen, bool)> {
         let offset = self.corner - p.as_dvec3();
@@ -125,8 +125,8 @@ impl Rectangle {
         (SeenX4::new(start, self.size.as_vec2(), z.abs()), z.cmplt(Vec4::ZERO))
     }
 
-    /// Samples of light from the rectangle for four points, those on its outer side or with `two_sided` all;
-    /// `None` if that takes more than f32.
+    /// Light samples for four points. Only points on the outer side receive light, unless `two_sided`. `None` if
+    /// f32 is not accurate enough for one of them.
     #[inline(always)]
     pub(super) fn sample_x4(
         &self,
@@ -141,7 +141,7 @@ impl Rectangle {
         }
         let points = self.points_x4(&seen, u);
         let to_light = points - p;
-        // As `unit` has it.
+        // The range of lengths in which `unit` needs no rescaling.
         let length2 = to_light.length_squared();
         let fine = length2.cmpgt(Vec4::splat(1e-30)) & length2.cmplt(Vec4::splat(1e30));
         if !fine.all() {

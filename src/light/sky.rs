@@ -1,4 +1,4 @@
-//! [`SkyLight`].
+//! [`SkyLight`]: constant environment light.
 
 use std::f32::consts::PI;
 use std::sync::Arc;
@@ -11,14 +11,18 @@ use crate::params::{Fault, Key, Kind, Table};
 use crate::sampling::uniform_sphere;
 use crate::spectrum::Spectrum;
 
-/// The same radiance from every direction: an overcast sky all around, or a furnace to test in.
+/// Constant environment light: the same radiance from every direction, like an overcast sky all around, or
+/// like the furnace of a white furnace test.
+#[doc(alias = "environment")]
+#[doc(alias = "infinite")]
+#[doc(alias = "furnace")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkyLight {
     radiance: Spectrum,
 }
 
 impl SkyLight {
-    /// A sky of the radiance `radiance`, in W / (m² sr).
+    /// A sky with this radiance, in W / (m² sr).
     pub fn new(radiance: Spectrum) -> Self {
         Self { radiance }
     }
@@ -54,7 +58,7 @@ impl Light for SkyLight {
         self.radiance
     }
 
-    /// 4π² r² L: from each of 4π directions, through the disk that the scene's sphere is seen as.
+    /// 4π² r² L: radiance L from 4π sr, through the cross section of the scene's bounding sphere.
     fn power(&self, scene: &BoundingSphere) -> Option<Spectrum> {
         Some(self.radiance * (4.0 * PI * PI * scene.radius * scene.radius))
     }

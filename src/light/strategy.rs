@@ -1,21 +1,22 @@
-//! [`LightStrategy`]: whether light is looked for from the light or from the surface.
+//! [`LightStrategy`]: whether directions are sampled from lights, from surfaces, or from both.
 
 use crate::params::{Choice, Key};
 
-/// How directions towards light are sampled.
+/// How the directions of direct light are sampled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LightStrategy {
-    /// [`Mis`](LightStrategy::Mis) for lights that say it is worth it
+    /// [`Mis`](LightStrategy::Mis) for lights that benefit from it
     /// ([`Light::is_worth_sampling`](super::Light::is_worth_sampling)), and
     /// [`Bsdf`](LightStrategy::Bsdf) for the others.
     #[default]
     Auto,
-    /// From the light and from the surface's lobes, combined by the power heuristic
+    /// Multiple importance sampling: from the light and from the BSDF, weighted by the power heuristic
     /// (Veach 1997, section 9.2.4).
+    #[doc(alias = "multiple importance sampling")]
     Mis,
-    /// From the light alone.
+    /// From the light only.
     Light,
-    /// From the surface's lobes alone; delta lights, which no ray hits by chance, are sampled all the same.
+    /// From the BSDF only. Delta lights, which no ray can hit, are sampled anyway.
     Bsdf,
 }
 
@@ -25,10 +26,10 @@ impl Choice for LightStrategy {
 }
 
 impl LightStrategy {
-    /// The key by which integrators take one.
+    /// The scene-file key by which integrators read a strategy.
     pub const KEY: Key<Self> = Key::new(
         "strategy",
-        "how directions to lights are drawn: from the light, from the surface (bsdf), from both weighed against each \
+        "how directions to lights are sampled: from the light, from the surface (bsdf), from both weighted against each \
          other (mis), or by what suits each light (auto)",
     )
     .default(Self::Auto);

@@ -1,4 +1,4 @@
-//! The contract of lights.
+//! [`Light`], the trait of light sources.
 
 use std::sync::Arc;
 
@@ -9,25 +9,25 @@ use crate::interaction::SurfaceInteraction;
 use crate::params::{Fault, Table};
 use crate::spectrum::Spectrum;
 
-/// How a kind of light is read.
+/// Function that reads a kind of light from a scene file.
 pub type Read = fn(&Table) -> Result<Arc<dyn Light>, Fault>;
 
-/// Light that may arrive at a point, from one direction.
+/// Light that may arrive at a point from one direction: it does unless something blocks it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightSample {
-    /// Radiance in W / (m² sr); for a light without extent the irradiance that it gives a surface
-    /// across the direction, in W / m².
+    /// Incident radiance in W / (m² sr); for a delta light, the irradiance on a surface perpendicular to
+    /// `wi`, in W / m².
     pub li: Spectrum,
     /// Unit direction from the point towards the light.
     pub wi: Vec3,
-    /// Density over solid angle with which `wi` was drawn, above 0; 1 for a light without extent.
+    /// Density over solid angle with which `wi` was sampled, above 0; 1 for a delta light.
     pub pdf: f32,
-    /// Where it comes from: it arrives if nothing stands between. A point of a surface is moved off that
-    /// surface as far as its rounding errors ask for. `None` for light from infinitely far away.
+    /// End point of the shadow ray. A point on a surface is offset from it by the bound on its rounding error,
+    /// so that the surface does not block the ray. `None` for light from an infinite distance.
     pub from: Option<Vec3>,
 }
 
-/// Four of [`LightSample`], of which some may be missing: their numbers mean nothing.
+/// Four of [`LightSample`]. Where `exists` is false the other fields are meaningless.
 #[doc(hidden)]
 #[derive(Clone, Copy)]
 pub struct LightSamplesX4 {
@@ -35,13 +35,13 @@ pub struct LightSamplesX4 {
     pub(crate) li: [Spectrum; 4],
     pub(crate) wi: Vec3x4,
     pub(crate) pdf: Vec4,
-    /// Where it comes from, if `is_near`.
+    /// End point of the shadow ray, if `is_near`.
     pub(crate) from: Vec3x4,
     pub(crate) is_near: BVec4A,
 }
 
 impl LightSamplesX4 {
-    /// No light.
+    /// Four missing samples.
     pub(crate) const NONE: Self = Self {
         exists: BVec4A::FALSE,
         li: [Spectrum::BLACK; 4],
@@ -52,7 +52,7 @@ impl LightSamplesX4 {
     };
 }
 
-/// Samples that are drawn point by point: the i-th by `sample(i, p)`.
+/// Samples four points one after the other: `sample(i, p)` for the i-th.
 pub(crate) fn one_by_one(
     points: Vec3x4,
     mut sample: impl FnMut(usize, Vec3) -> Option<LightSample>,
@@ -80,34 +80,34 @@ pub(crate) fn one_by_one(
     }
 }
 
-/// What a ray meets of a light that has an extent.
+/// Where a ray reaches a light that is not a delta light.
 #[derive(Clone, Copy)]
 #[non_exhaustive]
 pub struct LightHit<'a> {
-    /// The surface's point that the ray leaves, before its origin is moved off the surface.
+    /// The surface point that the ray leaves, before the offset against self-intersection.
     pub origin: Vec3,
-    /// Its unit direction.
+    /// Unit direction of the ray.
     pub wi: Vec3,
-    /// How far away the light is, in scene units; infinite for a light that surrounds the scene.
+    /// Distance from `origin` to the light, in scene units; infinite for a light that surrounds the scene.
     pub distance: f32,
-    /// The unit geometric normal of the light's surface, pointing outside; zero for a light that surrounds
-    /// the scene.
+    /// Unit geometric normal of the light's surface, on its outer side; zero for a light that surrounds the
+    /// scene.
     pub n: Vec3,
-    /// The point of the light's surface, which tells shape, triangle, barycentrics and texture coordinates;
-    /// `None` for a light that surrounds the scene, or if that is not known.
+    /// The point on the light's surface, with shape, triangle, barycentrics and texture coordinates; `None` for
+    /// a light that surrounds the scene, or if it is not known.
     pub surface: Option<&'a SurfaceInteraction<'a>>,
 }
 
 impl<'a> LightHit<'a> {
-    /// A ray from `origin` that ends at a light's surface.
+    /// A ray from `origin` to a point on a light's surface.
     #[inline]
     pub fn on_surface(origin: Vec3, surface: &'a SurfaceInteraction<'a>) -> Self {
         let (wi, distance) = (-surface.wo(), (surface.p() - origin).length());
         Self { origin, wi, distance, n: surface.n(), surface: Some(surface) }
     }
 
-    /// A ray from `origin` along the unit direction `wi` that ends at a surface with the normal `n`, of which
-    /// no more is known.
+    /// A ray from `origin` along the unit direction `wi` to a surface with the normal `n`, without its
+    /// [`surface`](Self::surface).
     pub fn new(origin: Vec3, wi: Vec3, distance: f32, n: Vec3) -> Self {
         Self { origin, wi, distance, n, surface: None }
     }
@@ -119,7 +119,7 @@ impl<'a> LightHit<'a> {
     }
 }
 
-/// A ball around the scene, which lights from infinity shine on.
+/// Bounding sphere of the scene. The power of lights at an infinite distance depends on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BoundingSphere {
     /// Its centre.
@@ -128,49 +128,81 @@ pub struct BoundingSphere {
     pub radius: f32,
 }
 
-/// A source of light (PBRT 3rd edition, section 12.2).
+/// A light source (PBRT 3rd edition, section 12.2).
 ///
-/// A light without extent, a delta light, only has [`sample_li`](Light::sample_li) and its power. One that
-/// surrounds the scene, or is a shape's surface, can also be met by rays, and tells what they see and how likely its
-/// own samples are to go the same way, so that both can be weighed against each other.
+/// A delta light (a point or a single direction) implements [`sample_li`](Light::sample_li) and
+/// [`power`](Light::power). A light that surrounds the scene, or is the surface of a shape, can also be hit by
+/// rays: it implements [`le`](Light::le) and [`pdf_li`](Light::pdf_li) too, so that both ways to find it can be
+/// weighted by multiple importance sampling.
+///
+/// ```
+/// use lobe::Spectrum;
+/// use lobe::glam::{Vec2, Vec3};
+/// use lobe::light::{Light, LightSample};
+///
+/// /// A lamp that shines only downwards, with the intensity I cos θ.
+/// struct Downlight {
+///     position: Vec3,
+///     intensity: f32,
+/// }
+///
+/// impl Light for Downlight {
+///     fn is_delta(&self) -> bool {
+///         true
+///     }
+///
+///     fn sample_li(&self, p: Vec3, _u: Vec2) -> Option<LightSample> {
+///         let (wi, distance) = (self.position - p).normalize_and_length();
+///         let li = Spectrum::splat(self.intensity * wi.y / (distance * distance));
+///         (wi.y > 0.0).then_some(LightSample { li, wi, pdf: 1.0, from: Some(self.position) })
+///     }
+/// }
+///
+/// let lamp = Downlight { position: Vec3::new(0.0, 3.0, 0.0), intensity: 18.0 };
+/// let below = lamp.sample_li(Vec3::ZERO, Vec2::ZERO).unwrap();
+/// assert_eq!(below.li, Spectrum::splat(18.0 / 9.0));
+/// assert!(lamp.sample_li(Vec3::new(0.0, 4.0, 0.0), Vec2::ZERO).is_none());
+/// ```
+#[doc(alias = "lamp")]
+#[doc(alias = "emitter")]
 pub trait Light: Send + Sync {
-    /// Whether the light has no extent, so that it takes no sample and no ray can hit it.
+    /// Whether this is a delta light: a point or a single direction, which no ray can hit by chance.
     fn is_delta(&self) -> bool;
 
-    /// Whether rays that leave the scene end at this light.
+    /// Whether rays that leave the scene reach this light.
     fn is_infinite(&self) -> bool {
         false
     }
 
-    /// Whether directions should be drawn from this light at all, where rays that follow the surface's own
-    /// reflection can meet it too. A constant sky says no: a surface does not care which part of it it sees.
+    /// Whether sampling directions from this light reduces noise, compared with rays sampled from the BSDF
+    /// alone. False for a constant sky: all of its directions contribute the same radiance.
     fn is_worth_sampling(&self) -> bool {
         true
     }
 
-    /// Light towards the point `p` in world space, for u in `[0, 1)²`. `None` when there is none.
+    /// Samples light towards the point `p` in world space, with `u` in `[0, 1)²`. `None` if there is none.
     fn sample_li(&self, p: Vec3, u: Vec2) -> Option<LightSample>;
 
-    /// Density over solid angle with which `sample_li` of the ray's origin gives its direction; 0 when it
-    /// cannot. A delta light has none.
+    /// Density over solid angle with which `sample_li` at `hit.origin` returns `hit.wi`; 0 if it cannot. A delta
+    /// light is never hit and needs none.
     fn pdf_li(&self, _hit: &LightHit) -> f32 {
         0.0
     }
 
-    /// Radiance that the ray sees, in W / (m² sr). A delta light cannot be seen.
+    /// Radiance emitted against the ray, in W / (m² sr). A delta light is invisible.
     fn le(&self, _hit: &LightHit) -> Spectrum {
         Spectrum::BLACK
     }
 
-    /// Total power in W; of a light from infinity, what it sends through `scene`. The more, the more often it
-    /// is asked where one of several lights is. `None` if it is not known: the light is then asked as often
-    /// as a light of mean power is. A light that gives no power is asked all the same, if less often.
+    /// Total emitted power in W; for a light at an infinite distance, the power that passes through `scene`.
+    /// Where one of several lights is selected per hit, the probability grows with it. An unknown power
+    /// (`None`) counts as the mean power of the others. A light of zero power is selected too, but rarely.
     fn power(&self, _scene: &BoundingSphere) -> Option<Spectrum> {
         None
     }
 
-    /// What [`sample_li`](Light::sample_li) gives for each of some points, four at a time. The slices are of
-    /// equal length. A kind that answers for four points at once overrides this, to the same bits.
+    /// [`sample_li`](Light::sample_li) for four points at a time. The slices have equal lengths. A kind that
+    /// is faster for four points overrides this, with bit-identical results.
     #[doc(hidden)]
     fn sample_li_x4(&self, points: &[Vec3x4], u: &[[Vec2; 4]], samples: &mut [LightSamplesX4]) {
         for ((&p, u), samples) in points.iter().zip(u).zip(samples) {
@@ -178,7 +210,7 @@ pub trait Light: Send + Sync {
         }
     }
 
-    /// The light as a scene holds it.
+    /// Wraps the light for a scene, without a second `Arc` around one that is shared.
     #[doc(hidden)]
     fn into_arc(self) -> Arc<dyn Light>
     where
@@ -188,7 +220,7 @@ pub trait Light: Send + Sync {
     }
 }
 
-/// A light that is held elsewhere too.
+/// A shared light is a light.
 macro_rules! shared {
     ($(<$($l:ident)?> $light:ty),*) => {$(
         impl$(<$l: Light + 'static>)? Light for Arc<$light> {
@@ -240,8 +272,8 @@ mod tests {
     use super::*;
     use crate::shape::TriangleMesh;
 
-    /// Numbers in `[0, 1)`, of 24 bits.
-    fn numbers() -> impl FnMut() -> f32 {
+    /// Pseudorandom numbers in `[0, 1)`, of 24 bits.
+    fn random_numbers() -> impl FnMut() -> f32 {
         let mut state = 1_u64;
         move || {
             state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
@@ -249,8 +281,8 @@ mod tests {
         }
     }
 
-    /// Points around lights of all kinds, on both sides of a lamp, some of them so that f32 is not enough. Seen to fail
-    /// with the sides exchanged, with a density that is not the scalar one's, and with the first block's samples for
+    /// Points around lights of all kinds, on both sides of a lamp, some of them where f32 is not accurate enough. Seen to
+    /// fail with the sides exchanged, with a density that is not the scalar one's, and with the first block's samples for
     /// the second.
     #[test]
     fn four_samples_are_those_of_one_to_the_bit() {
@@ -269,7 +301,7 @@ mod tests {
             &area(&bent, false),
             &area(&bent, true),
         ];
-        let mut next = numbers();
+        let mut next = random_numbers();
         let (mut compared, mut missing, mut declined) = (0, 0, 0);
         for trial in 0..10_000 {
             let scale = 10.0_f32.powf(3.0 * next() - 1.5);
@@ -278,18 +310,18 @@ mod tests {
                 [(); 2].map(|()| [(); 4].map(|()| Vec3::new(around(), 1.0 + around(), around())));
             let u = [(); 2].map(|()| [(); 4].map(|()| Vec2::new(next(), next())));
             let points = p.map(|p| Vec3x4::new(four(|i| &p[i])));
-            for (number, light) in lights.iter().enumerate() {
+            for (index, light) in lights.iter().enumerate() {
                 let mut samples = [LightSamplesX4::NONE; 2];
                 light.sample_li_x4(&points, &u, &mut samples);
                 for (block, samples) in samples.into_iter().enumerate() {
                     let (p, u) = (p[block], u[block]);
-                    // What a kind samples one by one is compared too, but does not count.
-                    let at_once = match number {
+                    // Samples that a kind draws one by one are compared too, but not counted.
+                    let at_once = match index {
                         0 | 1 => true,
                         2 | 3 => rectangle.sample_x4(points[block], u, l, true).is_some(),
                         _ => false,
                     };
-                    declined += usize::from((number == 2 || number == 3) && !at_once);
+                    declined += usize::from((index == 2 || index == 3) && !at_once);
                     let [wi, from] = [samples.wi, samples.from].map(|v| v.rows(samples.pdf));
                     for i in 0..4 {
                         let found = samples.exists.test(i).then(|| LightSample {
@@ -299,7 +331,7 @@ mod tests {
                             from: samples.is_near.test(i).then(|| from[i].truncate()),
                         });
                         let expected = light.sample_li(p[i], u[i]);
-                        assert_eq!(found, expected, "trial {trial}, light {number} from {}", p[i]);
+                        assert_eq!(found, expected, "trial {trial}, light {index} from {}", p[i]);
                         compared += usize::from(at_once);
                         missing += usize::from(at_once && found.is_none());
                     }

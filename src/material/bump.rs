@@ -1,4 +1,4 @@
-//! Bump mapping.
+//! Bump mapping: perturbs the shading frame by a displacement texture.
 
 use glam::{Vec2, Vec3};
 
@@ -6,18 +6,19 @@ use crate::geometry::unit_cross;
 use crate::interaction::{Shading, SurfaceInteraction};
 use crate::texture::Texture;
 
-/// The step in u and v of the difference quotient (PBRT's value when a ray carries no differentials).
+/// Step in u and v of the finite difference (PBRT's value for rays without differentials).
 const STEP: f32 = 0.0005;
 
-/// The least step in units of the last place of the coordinate: what a texture loses by rounding, far
-/// from 0, shall stay small against the difference.
+/// Least step, relative to the coordinate. Far from 0, the rounding of a texture's value has to stay small
+/// against the difference.
 const LEAST_STEP: f32 = 64.0 * f32::EPSILON;
 
 /// Tilts the shading frame as if the surface were displaced along its normal by `displacement`.
 ///
 /// With d the displacement, the displaced surface p' = p + d n has the derivative
 /// ∂p'/∂u = ∂p/∂u + ∂d/∂u n + d ∂n/∂u (PBRT 3rd edition, section 9.3, equation 9.1), and ∂d/∂u
-/// is a forward difference. Where that gives nothing usable the frame is left as it is.
+/// is a forward difference. If the derivatives span no plane, the frame stays as it is.
+#[doc(alias = "displacement")]
 pub fn bump(displacement: &dyn Texture<f32>, si: &mut SurfaceInteraction) {
     let shading = si.shading();
     let here = displacement.evaluate(si);
@@ -30,13 +31,13 @@ pub fn bump(displacement: &dyn Texture<f32>, si: &mut SurfaceInteraction) {
     let dpdu = slope(Vec2::X, shading.dpdu, shading.dndu);
     let dpdv = slope(Vec2::Y, shading.dpdv, shading.dndv);
     if let Some(n) = unit_cross(dpdu, dpdv) {
-        // A mirrored parameterisation turns the cross product inwards: the geometric normal is right.
+        // A mirrored parameterisation flips the cross product: the geometric normal decides.
         let n = if n.dot(si.n()) < 0.0 { -n } else { n };
         si.set_shading(Shading { n, dpdu, dpdv, ..shading });
     }
 }
 
-/// A step from `x` that float arithmetic takes exactly.
+/// A step from `x` for which `x + step` is exact in floating point.
 fn exact_step(x: f32) -> f32 {
     (x + STEP.max(LEAST_STEP * x.abs())) - x
 }

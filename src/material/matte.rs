@@ -1,4 +1,4 @@
-//! [`MatteMaterial`]: purely diffuse.
+//! [`MatteMaterial`]: diffuse reflection.
 
 use std::sync::Arc;
 
@@ -9,12 +9,14 @@ use crate::params::{Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
 use crate::texture::{Texture, TextureHandle, TextureKey, Textures};
 
-/// A purely diffuse surface, smooth or rough (PBRT 3rd edition, section 9.2.1).
+/// Diffuse reflection, Lambertian or Oren-Nayar (PBRT 3rd edition, section 9.2.1).
 ///
 /// ```
 /// use lobe::material::MatteMaterial;
 /// let clay = MatteMaterial::new([0.6, 0.3, 0.2]).with_sigma(20.0);
 /// ```
+#[doc(alias = "diffuse")]
+#[doc(alias = "lambert")]
 #[derive(Clone)]
 pub struct MatteMaterial {
     kd: TextureHandle<Spectrum>,
@@ -23,18 +25,18 @@ pub struct MatteMaterial {
 }
 
 impl MatteMaterial {
-    /// Reflects the share `kd`, brought into `[0, 1]` per band, by Lambert's law.
+    /// Lambertian reflection of the fraction `kd` of incident light, clamped to `[0, 1]` per band.
     pub fn new(kd: impl Texture<Spectrum> + 'static) -> Self {
         Self { kd: kd.into_handle(), sigma: None, bump: None }
     }
 
-    /// Adds roughness: the standard deviation of the surface's slopes in degrees, brought into
-    /// `[0, 90]`. Where it is 0 Lambert's law holds, elsewhere [`OrenNayar`].
+    /// Adds roughness: the standard deviation of the surface's slopes in degrees, clamped to `[0, 90]`. Where
+    /// it is 0 the surface is Lambertian, elsewhere it is [`OrenNayar`].
     pub fn with_sigma(self, sigma: impl Texture<f32> + 'static) -> Self {
         Self { sigma: Some(sigma.into_handle()), ..self }
     }
 
-    /// Adds a displacement along the normal, in scene units, that tilts the shading frame.
+    /// Adds bump mapping by a displacement along the normal, in scene units. See [`bump`].
     pub fn with_bump(self, displacement: impl Texture<f32> + 'static) -> Self {
         Self { bump: Some(displacement.into_handle()), ..self }
     }
@@ -48,7 +50,7 @@ impl Material for MatteMaterial {
         }
         let mut bsdf = Bsdf::isotropic(si);
         let kd = self.kd.evaluate(si);
-        // What is not finite is passed on: the Bsdf counts it.
+        // Non-finite values reach the Bsdf, which counts them.
         let r = if kd.is_finite() { kd.clamp(0.0, 1.0) } else { kd };
         if !r.is_black() {
             let sigma = self.sigma.as_ref().map_or(0.0, |s| s.evaluate(si).clamp(0.0, 90.0));
@@ -70,9 +72,11 @@ impl Material for MatteMaterial {
     }
 }
 
-/// Half of the light by default, as in PBRT.
+/// 0.5 by default, as in PBRT.
 const KD: TextureKey<Spectrum> = TextureKey::of(
-    Key::new("kd", "reflected share of the light").range(0.0..=1.0).default(Spectrum::splat(0.5)),
+    Key::new("kd", "reflected fraction of the light")
+        .range(0.0..=1.0)
+        .default(Spectrum::splat(0.5)),
 );
 const SIGMA: TextureKey<f32> = TextureKey::of(
     Key::new("sigma", "roughness: standard deviation of the surface's slopes")
@@ -86,7 +90,7 @@ const BUMP: TextureKey<Option<f32>> =
 /// `type = "matte"`
 pub(super) const KIND: Kind<Read> = Kind {
     name: "matte",
-    meaning: "Purely diffuse: Lambert's law, or Oren-Nayar where sigma is not 0",
+    meaning: "Diffuse: Lambertian, or Oren-Nayar where sigma is not 0",
     keys: &[&KD, &SIGMA, &BUMP],
     read,
 };

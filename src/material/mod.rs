@@ -1,4 +1,4 @@
-//! Materials: they turn textures into lobes.
+//! Materials: they evaluate textures at a hit and return lobes.
 
 mod bump;
 mod matte;
@@ -10,5 +10,5 @@ pub use traits::{Material, Read};
 
 use crate::params::Kind;
 
-/// All kinds of materials.
+/// All kinds of materials of scene files.
 pub static MATERIALS: &[Kind<Read>] = &[matte::KIND];

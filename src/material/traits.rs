@@ -1,4 +1,4 @@
-//! The contract of materials.
+//! [`Material`], the trait of materials.
 
 use std::sync::Arc;
 
@@ -7,13 +7,13 @@ use crate::interaction::SurfaceInteraction;
 use crate::params::{Fault, Table};
 use crate::texture::Textures;
 
-/// How a kind of material is read.
+/// Function that reads a kind of material from a scene file.
 pub type Read = fn(&Table, &Textures) -> Result<Arc<dyn Material>, Fault>;
 
-/// What a surface is made of.
+/// The reflection properties of a surface (PBRT 3rd edition, section 9.2).
 ///
-/// A material evaluates its textures at a hit and adds the lobes that follow to a [`Bsdf`]. It never
-/// sees a ray, a light or a sampler (PBRT 3rd edition, section 9.2).
+/// A material evaluates its textures at a hit and adds the resulting lobes to a [`Bsdf`]. It has no access
+/// to rays, lights or samplers.
 ///
 /// ```
 /// use lobe::bxdf::{Arena, Bsdf, LambertianReflection};
@@ -32,18 +32,18 @@ pub type Read = fn(&Table, &Textures) -> Result<Arc<dyn Material>, Fault>;
 /// }
 /// ```
 pub trait Material: Send + Sync {
-    /// The lobes at a hit, after the material has displaced the shading frame if it does so.
+    /// The lobes at a hit. A material with bump mapping replaces the shading geometry of `si` first.
     ///
-    /// Lobes may borrow from the material, or stand in `arena` until the hit has been shaded.
+    /// Lobes may borrow from the material, or from `arena`, which keeps them until the hit has been shaded.
     fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, arena: &'a Arena) -> Bsdf<'a>;
 
-    /// The one lobe that the material has at every hit and in the frame of any shading normal, if that is
-    /// so. Such surfaces are shaded faster, and `compute_scattering` need not be called.
+    /// The lobe, if the material is the same single Lambertian lobe at every hit and does not change the
+    /// shading normal. Such surfaces take a faster path that may skip `compute_scattering`.
     fn constant_lambertian(&self) -> Option<LambertianReflection> {
         None
     }
 
-    /// The material as a scene holds it.
+    /// Wraps the material for a scene, without a second `Arc` around one that is shared.
     #[doc(hidden)]
     fn into_arc(self) -> Arc<dyn Material>
     where
@@ -53,7 +53,7 @@ pub trait Material: Send + Sync {
     }
 }
 
-/// A material that is held elsewhere too.
+/// A shared material is a material.
 macro_rules! shared {
     ($(<$($m:ident)?> $material:ty),*) => {$(
         impl$(<$m: Material + 'static>)? Material for Arc<$material> {

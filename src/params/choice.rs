@@ -1,16 +1,16 @@
-//! [`Choice`]: types with a name for each value.
+//! [`Choice`]: enums whose values have names in scene files and on the command line.
 
 use super::hint::one_of;
 use super::limits::Limits;
 use super::param::Param;
 use super::tree::Value;
 
-/// A type with a few values, each with a name in files and on the command line.
+/// An enum whose values have names in scene files and on the command line.
 pub trait Choice: Copy + PartialEq + Send + Sync + 'static {
     /// All values with their names.
     const CHOICES: &'static [(&'static str, Self)];
 
-    /// The name of this one.
+    /// The name of this value.
     fn name(self) -> &'static str {
         let found = Self::CHOICES.iter().find(|(_, choice)| *choice == self);
         found.map_or("", |(name, _)| name)

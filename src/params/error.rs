@@ -1,59 +1,60 @@
-//! [`Fault`] and [`Problem`]: what is wrong with a value, and where.
+//! [`Fault`] and [`Problem`]: what is wrong in a document, and where.
 
 use std::error::Error;
 
 use super::hint::hint;
 use super::tree::Mark;
 
-/// A problem and its place. The message is that of the problem: whoever knows the text behind a [`Mark`] can say
-/// more.
+/// A problem and its position. `Display` shows the problem only: a caller that has the text behind the [`Mark`] can
+/// add line and column.
 #[derive(Debug, thiserror::Error)]
 #[error("{problem}")]
 pub struct Fault {
-    /// Where.
+    /// Position.
     pub mark: Mark,
     /// What is wrong there.
     pub problem: Problem,
 }
 
-/// What is wrong at a place of a document. A `hint` is the nearest known name, or all known ones, or empty.
+/// What is wrong at a position of a document. A `hint` suggests the nearest known name, or lists all known names, or
+/// is empty.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Problem {
-    /// Nothing has this name.
+    /// A key that the table does not have.
     #[error("unknown key `{key}` in {table}{hint}")]
     UnknownKey {
-        /// The name.
+        /// The key.
         key: String,
-        /// Where it was looked for.
+        /// The table, as messages call it.
         table: String,
-        /// What it may have been meant to be.
+        /// Suggestion for the message.
         hint: String,
     },
-    /// A key that is known, but means nothing beside the others of its table.
+    /// A known key that has no effect beside the other keys of its table.
     #[error("`{key}` has no effect here")]
     Unused {
         /// Its full name.
         key: String,
     },
-    /// Something refers to what is not there.
+    /// A reference to something that is not defined.
     #[error("the scene has no {kind} `{name}`{hint}")]
     UnknownName {
         /// "texture", "material", ...
         kind: String,
-        /// The name.
+        /// The missing name.
         name: String,
-        /// What it may have been meant to be.
+        /// Suggestion for the message.
         hint: String,
     },
-    /// A key without a default is left out.
+    /// A required key is missing.
     #[error("{table} lacks `{key}`, expected {expected}")]
     MissingKey {
-        /// Where it should stand.
+        /// The table in which it is missing.
         table: String,
         /// Its name.
         key: &'static str,
-        /// What it should hold.
+        /// Description of the values it can have.
         expected: String,
     },
     /// A value of the wrong type or out of range.
@@ -63,7 +64,7 @@ pub enum Problem {
         key: String,
         /// The value, shortened if it is long.
         found: String,
-        /// What it should be.
+        /// Description of the values it can have.
         expected: String,
     },
     /// A mistake in the program: a kind reads a key that is not in [`Kind::keys`](super::Kind::keys).
@@ -74,20 +75,20 @@ pub enum Problem {
         /// Where it was to be read.
         table: String,
     },
-    /// Each value is fine by itself, but what they are for cannot be made from them.
+    /// Each value is valid by itself, but not in combination with others or with a file.
     #[error(transparent)]
     Other(Box<dyn Error + Send + Sync>),
 }
 
 impl Fault {
-    /// What a kind finds wrong with a value at this place.
+    /// An error of a kind's own about the value at this position.
     pub fn new(mark: Mark, problem: impl Error + Send + Sync + 'static) -> Self {
         Self { mark, problem: Problem::Other(Box::new(problem)) }
     }
 }
 
 impl Problem {
-    /// A reference to something that is not there: `known` are the names that are.
+    /// A reference to an undefined name; `known` are the defined names.
     pub fn unknown_name<'a>(kind: &str, name: &str, known: impl Iterator<Item = &'a str>) -> Self {
         let hint = hint(name, known);
         Self::UnknownName { kind: kind.into(), name: name.escape_debug().to_string(), hint }

@@ -1,14 +1,14 @@
-//! [`hint`]: what a misspelt name may have been meant to be.
+//! [`hint`]: suggestions for a misspelt name.
 
-/// How many names a hint lists at most.
+/// Maximum number of names in a hint.
 const LISTED: usize = 12;
 
-/// The nearest of the known names, or all of them if none is near: the end of an error message.
+/// Suffix of an error message: the nearest known name, or all known names if none is near.
 pub fn hint<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
     let known: Vec<&str> = known.collect();
     let lower = name.to_lowercase();
     let distances = known.iter().map(|k| (strsim::osa_distance(&lower, &k.to_lowercase()), *k));
-    // As in rustc: a third of the letters may be wrong, and one in any case.
+    // As in rustc: up to a third of the letters may differ, and one in any case.
     let is_near = |&(distance, k): &(usize, &str)| {
         3 * distance <= name.chars().count().max(k.chars().count()).max(3)
     };

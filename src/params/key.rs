@@ -1,4 +1,4 @@
-//! [`Key`]: the declaration of a key, once for reading it and for the tables that list it.
+//! [`Key`]: the declaration of a key, for reading and for documentation.
 
 use std::fmt::Debug;
 use std::ops::RangeInclusive;
@@ -7,8 +7,8 @@ use super::limits::Limits;
 use super::param::Param;
 use super::tree::Value;
 
-/// A key of a table: its name, what it means, and what its value may be. One constant serves both
-/// [`Table::get`](super::Table::get) and the tables of `lobe help`.
+/// Declaration of a key: name, meaning, range, unit and default. [`Table::get`](super::Table::get) reads by it, and
+/// `lobe help` prints it.
 ///
 /// ```
 /// use lobe::params::Key;
@@ -17,8 +17,8 @@ use super::tree::Value;
 ///     Key::new("sigma", "standard deviation of slopes").in_unit("degrees").range(0.0..=90.0).default(0.0);
 /// ```
 ///
-/// A key without a default is required. One whose value has no default that could be written down, but may be left
-/// out, is a [`Key::optional`].
+/// A key without a default is required. A key that may be left out, with no default value, is made by
+/// [`Key::optional`].
 #[derive(Clone, Copy, Debug)]
 pub struct Key<T> {
     name: &'static str,
@@ -33,48 +33,48 @@ impl<T> Key<T> {
         Self { name, meaning, limits: Limits::NONE, default: None }
     }
 
-    /// Names the unit of the numbers: a plural, such as "degrees".
+    /// Sets the unit of the numbers: a plural, such as "degrees".
     pub const fn in_unit(mut self, unit: &'static str) -> Self {
         self.limits = self.limits.with_unit(unit);
         self
     }
 
-    /// Numbers from the one bound to the other, both included.
+    /// Restricts numbers to a closed range.
     pub const fn range(mut self, range: RangeInclusive<f64>) -> Self {
         self.limits = self.limits.with_least(*range.start(), true).with_most(*range.end(), true);
         self
     }
 
-    /// Numbers of at least this.
+    /// Restricts numbers to at least `least`.
     pub const fn at_least(mut self, least: f64) -> Self {
         self.limits = self.limits.with_least(least, true);
         self
     }
 
-    /// Numbers greater than this.
+    /// Restricts numbers to greater than `least`.
     pub const fn above(mut self, least: f64) -> Self {
         self.limits = self.limits.with_least(least, false);
         self
     }
 
-    /// Numbers of at most this.
+    /// Restricts numbers to at most `most`.
     pub const fn at_most(mut self, most: f64) -> Self {
         self.limits = self.limits.with_most(most, true);
         self
     }
 
-    /// Numbers less than this.
+    /// Restricts numbers to less than `most`.
     pub const fn below(mut self, most: f64) -> Self {
         self.limits = self.limits.with_most(most, false);
         self
     }
 
-    /// Its name.
+    /// The key's name.
     pub const fn name(&self) -> &'static str {
         self.name
     }
 
-    /// The range of its numbers.
+    /// Range and unit.
     pub const fn limits(&self) -> &Limits {
         &self.limits
     }
@@ -85,46 +85,46 @@ impl<T> Key<T> {
 }
 
 impl<T: Copy> Key<T> {
-    /// Gives the value if the key is left out.
+    /// Sets the default, which makes the key optional.
     pub const fn default(mut self, value: T) -> Self {
         self.default = Some(value);
         self
     }
 
-    /// The value if the key is left out.
+    /// The default.
     ///
     /// # Panics
-    /// If it is required.
+    /// If the key is required.
     pub const fn default_value(&self) -> T {
         self.default.expect("a key with a default")
     }
 }
 
 impl<T> Key<Option<T>> {
-    /// A key that may be left out: its value is `None` then.
+    /// A key whose value is `None` if it is left out.
     pub const fn optional(name: &'static str, meaning: &'static str) -> Self {
         Self { name, meaning, limits: Limits::NONE, default: Some(None) }
     }
 }
 
-/// A key of any type, for the list of a [`Kind`](super::Kind).
+/// A key with a value of any type, for [`Kind::keys`](super::Kind::keys).
 pub trait AnyKey: Sync {
-    /// Its name.
+    /// The key's name.
     fn name(&self) -> &'static str;
 
-    /// What it means, as a phrase.
+    /// Its meaning, as a phrase.
     fn meaning(&self) -> &'static str;
 
-    /// What its value has to be, in words, with range and unit.
+    /// Description of valid values, with range and unit.
     fn expected(&self) -> String;
 
-    /// The value if it is left out, as it could stand in a file; "none" for nothing. `None` if it is required.
+    /// The default, in the syntax of a scene file, or "none" for [`Key::optional`]. `None` if the key is required.
     fn default_text(&self) -> Option<String>;
 
-    /// Some value that can be read, as it could stand in a file.
+    /// A valid value, in the syntax of a scene file.
     fn example(&self) -> String;
 
-    /// Whether this value can be read.
+    /// Whether the value is valid.
     fn accepts(&self, value: &Value) -> bool;
 }
 

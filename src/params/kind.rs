@@ -1,4 +1,4 @@
-//! [`Kind`], a line of a registry, and [`Section`], the tables of a document that a registry reads.
+//! [`Kind`], an entry of a registry, and [`Section`], the tables of a document that one registry reads.
 
 use super::error::Fault;
 use super::hint::one_of;
@@ -6,45 +6,45 @@ use super::key::AnyKey;
 use super::table::Table;
 use super::tree::Value;
 
-/// One kind of material, light, ...: a line of a registry. `R` is how it is read, mostly a function from a
-/// [`Table`]; each registry chooses its own.
+/// An entry of a registry: one kind of material, light, and so on. `R` is usually a function that reads a [`Table`];
+/// each registry defines its own type.
 #[derive(Clone, Copy, Debug)]
 pub struct Kind<R: 'static> {
-    /// What documents and the command line call it.
+    /// Its name in documents and on the command line.
     pub name: &'static str,
-    /// What it is, in one line.
+    /// Short description, in one line.
     pub meaning: &'static str,
     /// All keys that it reads.
     pub keys: &'static [&'static dyn AnyKey],
-    /// How it is read.
+    /// The function that reads it.
     pub read: R,
 }
 
-/// The tables of a document that are read by one registry, such as all `[material.NAME]`.
+/// The tables of a document that one registry reads, such as all `[material.NAME]`.
 #[derive(Clone, Copy, Debug)]
 pub struct Section<R: 'static> {
-    /// The table's key: "material".
+    /// Key of the table, such as "material".
     pub key: &'static str,
-    /// What the kinds are called together: "materials".
+    /// Plural for headings, such as "materials".
     pub plural: &'static str,
-    /// Whether there are any number of them, each with a name.
+    /// Whether there can be any number of these tables, each with a name.
     pub is_named: bool,
-    /// The key that names the kind: "type".
+    /// The key that selects the kind, such as "type".
     pub selector: &'static str,
-    /// The kind if none is named; without it the selector is required.
+    /// The default kind; `None` if the selector is required.
     pub default: Option<&'static str>,
-    /// Keys that all kinds have.
+    /// Keys that all kinds share.
     pub common: &'static [&'static dyn AnyKey],
     /// The registry.
     pub kinds: &'static [Kind<R>],
 }
 
 impl<R> Section<R> {
-    /// Reads a table: finds the kind that it names, refuses keys that this kind does not have, and calls `read` with
-    /// the kind.
+    /// Reads a table: finds the kind that the selector names, checks that the kind declares all keys of the table, and
+    /// calls `read` with it.
     ///
     /// # Errors
-    /// What is wrong with the keys, what `read` finds wrong, or a key that `read` had no use for.
+    /// Unknown or missing keys, errors of `read`, and keys that `read` did not read.
     pub fn read<T>(
         &self,
         table: Table,
@@ -70,27 +70,27 @@ impl<R> Section<R> {
     }
 }
 
-/// A [`Section`] of any registry, for tables and tests.
+/// A [`Section`] of any registry, for documentation and tests.
 pub trait AnySection: Sync {
-    /// The table's key: "material".
+    /// Key of the table, such as "material".
     fn key(&self) -> &'static str;
 
-    /// What the kinds are called together: "materials".
+    /// Plural for headings, such as "materials".
     fn plural(&self) -> &'static str;
 
-    /// Whether there are any number of them, each with a name.
+    /// Whether there can be any number of these tables, each with a name.
     fn is_named(&self) -> bool;
 
-    /// The key that names the kind.
+    /// The key that selects the kind.
     fn selector(&self) -> &'static str;
 
-    /// The kind if none is named.
+    /// The default kind; `None` if the selector is required.
     fn default(&self) -> Option<&'static str>;
 
-    /// Keys that all kinds have.
+    /// Keys that all kinds share.
     fn common(&self) -> &'static [&'static dyn AnyKey];
 
-    /// The kinds, without how they are read.
+    /// All kinds, without their read functions.
     fn kinds(&self) -> Vec<Kind<()>>;
 }
 

@@ -1,6 +1,6 @@
-//! [`Limits`]: the range of a number, and its unit.
+//! [`Limits`]: range and unit of numbers.
 
-/// The range that numbers have to be in, and their unit. By default any finite number is.
+/// Range and unit of the numbers in a value. By default any finite number is valid.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
     least: Option<Bound>,
@@ -31,14 +31,14 @@ impl Limits {
         Self { unit: Some(unit), ..self }
     }
 
-    /// Whether a number is in range. NaN is in no range.
+    /// Whether a number is in range. NaN never is.
     pub fn contains(&self, value: f64) -> bool {
         let above = |Bound { at, included }| value > at || included && value == at;
         let below = |Bound { at, included }| value < at || included && value == at;
         self.least.is_none_or(above) && self.most.is_none_or(below) && !value.is_nan()
     }
 
-    /// The same for an `f32`: bounds are rounded to one first, so that a bound of 0.1 includes 0.1.
+    /// [`contains`](Self::contains) for `f32`. Bounds are rounded to `f32` first, so that a bound of 0.1 includes 0.1.
     pub fn contains_f32(&self, value: f32) -> bool {
         let round = |bound: Option<Bound>| {
             bound.map(|bound| Bound { at: f64::from(bound.at as f32), ..bound })
@@ -47,7 +47,7 @@ impl Limits {
             .contains(f64::from(value))
     }
 
-    /// A number in range, for examples: 1 if it is in range.
+    /// A number in range, for examples: 1 if that is in range.
     pub(super) fn example(&self) -> f64 {
         if self.contains(1.0) {
             return 1.0;
@@ -60,7 +60,7 @@ impl Limits {
         }
     }
 
-    /// The numbers in words, for messages and tables: "degrees from 0 to 90".
+    /// Description for messages and tables, such as "degrees from 0 to 90".
     pub fn describe(&self) -> String {
         match (self.unit, self.range()) {
             (None, None) => "a finite number".into(),
@@ -73,7 +73,7 @@ impl Limits {
         }
     }
 
-    /// The same after "each".
+    /// Description after the word "each".
     pub(super) fn describe_each(&self) -> String {
         match (self.least, self.most, self.unit, self.range()) {
             (Some(_), Some(_), None, Some(range)) => range,
@@ -97,7 +97,7 @@ impl Limits {
         })
     }
 
-    /// The whole numbers up to `max` in words.
+    /// Description for integers, of which the type's maximum is `max`.
     pub(super) fn describe_whole(&self, max: u64) -> String {
         let least =
             self.least.map_or(0.0, |b| if b.included { b.at.ceil() } else { b.at.floor() + 1.0 });

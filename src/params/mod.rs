@@ -1,11 +1,11 @@
-//! Parameters: typed values from a tree, each key declared once.
+//! Parameters: typed values read from a tree, with each key declared once.
 //!
-//! A [`Kind`] of material, light, ... declares its [`Key`]s as constants: name, meaning, range, default. The same
-//! constants read its [`Table`], and tell `lobe help` and the page of the scene format what there is. Keys that a kind does not declare are
-//! refused, with the nearest name that it does.
+//! Each [`Kind`] of material, light, and so on declares its [`Key`]s as constants: name, meaning, range, default.
+//! The same constants read its [`Table`] and generate `lobe help` and the page of the scene format. Undeclared keys
+//! are errors, which suggest the nearest declared name.
 //!
-//! The limits: this room knows no kind, no file format and no text. It reads a [`Document`], a tree in which every
-//! value has a [`Mark`], and a [`Fault`] says at which mark something is wrong.
+//! This module is independent of all kinds and of the file format. It reads a [`Document`], a tree in which every
+//! value has a [`Mark`]. A [`Fault`] contains the mark of what is wrong.
 //!
 //! ```
 //! use lobe::params::{Document, Fault, Key, Kind, Node, Section, Table};

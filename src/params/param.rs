@@ -1,4 +1,4 @@
-//! [`Param`]: types that the value of a key can have.
+//! [`Param`]: types that values of keys can have.
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -9,21 +9,21 @@ use super::limits::Limits;
 use super::tree::Value;
 use crate::spectrum::Spectrum;
 
-/// A type that the value of a key can have.
+/// A type that values of keys can have.
 pub trait Param: Clone + Send + Sync + 'static {
-    /// The value, or `None` if it has another type or is out of range. Limits hold for each number in it.
+    /// Converts a value; `None` if it has another type or is out of range. Limits apply to each number in it.
     fn from_value(value: &Value, limits: &Limits) -> Option<Self>;
 
-    /// The value as it could stand in a file; `None` for what is written by leaving the key out.
+    /// Converts back; `None` for a value that is expressed by leaving out the key.
     fn to_value(&self) -> Option<Value>;
 
-    /// What a value has to be, in words: "a finite number".
+    /// Description of valid values, such as "a finite number".
     fn expected(limits: &Limits) -> String;
 
-    /// Some value that can be read.
+    /// A valid value.
     fn example(limits: &Limits) -> Self;
 
-    /// The value where it stands: `folder` is what relative paths are relative to.
+    /// Resolves relative paths in the value against `folder`.
     fn placed(self, _folder: &Path) -> Self {
         self
     }
@@ -65,7 +65,7 @@ impl Param for String {
     }
 }
 
-/// The path of a file; a relative one is relative to where it stands.
+/// A file path. Relative paths are resolved against the folder of the document.
 impl Param for PathBuf {
     fn from_value(value: &Value, limits: &Limits) -> Option<Self> {
         String::from_value(value, limits).map(Self::from)
@@ -142,7 +142,7 @@ impl Param for u64 {
     }
 }
 
-/// Once from decimal to the type, so that nothing is rounded twice.
+/// Parsed from decimal directly to the type, so that the number is rounded once.
 fn number<T: FromStr>(value: &Value) -> Option<T> {
     if let Value::Number(text) = value { text.parse().ok() } else { None }
 }
@@ -167,7 +167,7 @@ impl<T: Param, const N: usize> Param for [T; N] {
     }
 }
 
-/// A value that may be left out: it is `None` then.
+/// `None` if the key is left out.
 impl<T: Param> Param for Option<T> {
     fn from_value(value: &Value, limits: &Limits) -> Option<Self> {
         T::from_value(value, limits).map(Some)

@@ -1,4 +1,4 @@
-//! [`Direction`], [`Scale`], [`Rotation`]: what places things in space.
+//! [`Direction`], [`Scale`], [`Rotation`]: geometric parameters.
 
 use glam::{Quat, Vec3};
 
@@ -7,7 +7,7 @@ use super::param::Param;
 use super::tree::Value;
 use crate::geometry::unit;
 
-/// A direction, given with any length, as a unit vector.
+/// A unit vector, given with any length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Direction(pub Vec3);
 
@@ -29,7 +29,7 @@ impl Param for Direction {
     }
 }
 
-/// Factors along x, y and z, none of them 0; one number stands for all three.
+/// Non-zero scale factors along x, y and z; a single number sets all three.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale(pub Vec3);
 
@@ -55,13 +55,13 @@ impl Param for Scale {
     }
 }
 
-/// A rotation about an axis through the origin: about +x it turns y towards z, about +y z towards x, about +z x
+/// A rotation about an axis through the origin: about +x it moves y towards z, about +y z towards x, about +z x
 /// towards y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rotation {
     /// The axis, as a unit vector.
     pub axis: Vec3,
-    /// The angle.
+    /// The angle in degrees.
     pub degrees: f32,
 }
 

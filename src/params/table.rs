@@ -1,4 +1,4 @@
-//! [`Table`]: one table of a document, read key by key, and [`Document`].
+//! [`Document`], and [`Table`], one table of it, which is read key by key.
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -9,21 +9,21 @@ use super::key::{AnyKey, Key};
 use super::param::Param;
 use super::tree::{Entry, Mark, Node, Value};
 
-/// A tree of values, and for each of its sources the folder that paths in it are relative to.
+/// A tree of values, and the folder of each source, against which its relative paths are resolved.
 #[derive(Clone, Debug)]
 pub struct Document {
-    /// The table that holds all others.
+    /// The top-level table.
     pub root: Node,
-    /// By [`Mark::source`]; a source without one counts from the current directory.
+    /// Folders, by [`Mark::source`]. Sources without one use the current directory.
     pub folders: Vec<PathBuf>,
 }
 
-/// A table, or what stands for one that the document leaves out. It knows which keys may be read, and notes which of
-/// them were.
+/// A table of a document. A table that is left out reads as an empty one. It records which keys may be read and which
+/// have been.
 pub struct Table<'a> {
-    /// Its full name; empty for the root.
+    /// Full name; empty for the root.
     name: String,
-    /// What messages call it.
+    /// Name in messages.
     title: String,
     node: &'a Node,
     document: &'a Document,
@@ -31,7 +31,7 @@ pub struct Table<'a> {
     read: RefCell<Vec<&'static str>>,
 }
 
-/// What stands for a table that is left out.
+/// Replacement for tables that are left out.
 static EMPTY: Node = Node { mark: Mark { source: 0, offset: 0 }, value: Value::Table(Vec::new()) };
 
 impl Document {
@@ -40,10 +40,10 @@ impl Document {
         Self { root, folders: Vec::new() }
     }
 
-    /// The root, which may hold the tables `keys` and nothing else. Messages call it `title`.
+    /// The root table, with `title` as its name in messages. Its keys have to be among `keys`.
     ///
     /// # Errors
-    /// The first other key.
+    /// The first unknown key.
     pub fn table(&self, title: &str, keys: &[&'static str]) -> Result<Table<'_>, Fault> {
         let table = Table::new(self, String::new(), title.into(), &self.root);
         let table = Table { keys: keys.to_vec(), ..table };
@@ -56,18 +56,18 @@ impl<'a> Table<'a> {
         Self { name, title, node, document, keys: Vec::new(), read: RefCell::default() }
     }
 
-    /// The table of that name, empty if there is none.
+    /// The table with this key, or an empty one.
     ///
     /// # Errors
-    /// If it is not a table.
+    /// If the value is not a table.
     pub fn table(&self, key: &str) -> Result<Self, Fault> {
         self.enter(key, self.node.get(key).unwrap_or(&EMPTY))
     }
 
-    /// All tables in the table of that name, each with its name, in the order of the document.
+    /// All tables in the table with this key, with their names, in the order of the document.
     ///
     /// # Errors
-    /// What is not a table.
+    /// The first value that is not a table.
     pub fn tables(&self, key: &str) -> Result<Vec<(&'a str, Self)>, Fault> {
         let table = self.table(key)?;
         let enter = |entry: &'a Entry| Ok((&*entry.key, table.enter(&entry.key, &entry.node)?));
@@ -84,7 +84,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// The same table, in which `selector` and `keys` may stand and nothing else.
+    /// The same table, restricted to the keys `selector` and `keys`.
     pub(super) fn with_keys(
         mut self,
         selector: &'static str,
@@ -92,7 +92,7 @@ impl<'a> Table<'a> {
     ) -> Result<Self, Fault> {
         self.keys = [selector].into_iter().chain(keys).collect();
         self.read = RefCell::new(vec![selector]);
-        // Which keys there are depends on the type, where a table has one.
+        // The keys of a table depend on its type, so name it in the message.
         if let Some(kind) = self.node.get("type") {
             self.title = format!("{} of type {}", self.title, kind.value);
         }
@@ -114,8 +114,8 @@ impl<'a> Table<'a> {
     /// The value of a key, or its default.
     ///
     /// # Errors
-    /// If it has another type, is out of range, or is missing and has no default; or if the table's kind does not
-    /// declare the key.
+    /// If the value has another type, is out of range, or is missing and has no default; or if the table's kind does
+    /// not declare the key.
     pub fn get<T: Param>(&self, key: &Key<T>) -> Result<T, Fault> {
         let Some(node) = self.value(key)? else {
             return key.get_default().cloned().ok_or_else(|| self.missing(key));
@@ -127,7 +127,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// The value of a key as it stands, for types that are not read by [`Table::get`].
+    /// The unconverted value of a key, for types that [`Table::get`] cannot read.
     ///
     /// # Errors
     /// If the table's kind does not declare the key.
@@ -141,7 +141,7 @@ impl<'a> Table<'a> {
         Ok(self.node.get(key))
     }
 
-    /// Refuses keys that may stand in the table but were not read: those that mean nothing beside the others.
+    /// Returns an error for a known key that was not read: it has no effect beside the others.
     pub(super) fn finish(&self) -> Result<(), Fault> {
         let read = self.read.borrow();
         let is_unread = |entry: &&Entry| read.iter().all(|key| *key != entry.key);
@@ -152,17 +152,17 @@ impl<'a> Table<'a> {
         })
     }
 
-    /// Where the value of a key stands, or else the table.
+    /// Position of the value of a key, or of the table if the key is left out.
     pub fn mark(&self, key: &dyn AnyKey) -> Mark {
         self.node.follow(&[key.name()]).mark
     }
 
-    /// That a key has to be there.
+    /// The error that a required key is missing.
     pub fn missing(&self, key: &dyn AnyKey) -> Fault {
         self.lacks(key.name(), key.expected())
     }
 
-    /// That the value `found` of a key, which stands at `node`, is not as expected.
+    /// The error that the value of a key, `found` at `node`, is invalid.
     pub fn unfit(&self, key: &dyn AnyKey, node: &Node, found: String, expected: String) -> Fault {
         self.wrong(key.name(), node, found, expected)
     }
@@ -186,7 +186,7 @@ impl<'a> Table<'a> {
     }
 }
 
-/// The name of a key with that of its table, as it could stand in a file.
+/// Full name of a key in the table `table`, in the syntax of a scene file.
 fn full_name(table: &str, key: &str) -> String {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     let dot = if table.is_empty() { "" } else { "." };

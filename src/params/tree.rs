@@ -1,39 +1,39 @@
-//! [`Node`] and [`Value`]: the tree that values are read from, with the place of each.
+//! [`Node`] and [`Value`]: a tree of values with their positions.
 
 use std::fmt::{self, Display, Formatter};
 
-/// Where something begins: in which source, and at which byte of it.
+/// A position: source and byte offset.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Mark {
-    /// Index of the source: a document may be made up of several texts.
+    /// Index of the source. A document may combine several texts.
     pub source: usize,
     /// Offset in bytes.
     pub offset: usize,
 }
 
-/// A value and where it begins.
+/// A value with its position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Node {
-    /// Where it begins.
+    /// Position of its first byte.
     pub mark: Mark,
     /// The value.
     pub value: Value,
 }
 
-/// What a value can be.
+/// A value of any type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Value {
     /// True or false.
     Boolean(bool),
-    /// A number in decimal, as written: it is rounded once, to the type that is asked for.
+    /// A number in decimal, as written, so that it is rounded once, to the type that is read.
     Number(String),
-    /// A text.
+    /// A string.
     Text(String),
-    /// A date or time, which no key takes.
+    /// A date or time. No key accepts one.
     Date(String),
-    /// Values in a row.
+    /// An array.
     Array(Vec<Node>),
-    /// Keys with values, in the order of the text.
+    /// A table, in the order of the text.
     Table(Vec<Entry>),
 }
 
@@ -42,14 +42,14 @@ pub enum Value {
 pub struct Entry {
     /// The key.
     pub key: String,
-    /// Where the key begins.
+    /// Position of the key.
     pub mark: Mark,
     /// The value.
     pub node: Node,
 }
 
 impl Node {
-    /// A table without text behind it, for documents that are made by hand.
+    /// A table without positions, for documents made in code.
     pub fn table<'k>(entries: impl IntoIterator<Item = (&'k str, Value)>) -> Self {
         let mark = Mark::default();
         let entry = |(key, value): (&str, Value)| {
@@ -59,17 +59,17 @@ impl Node {
         Self { mark, value: Value::Table(entries.into_iter().map(entry).collect()) }
     }
 
-    /// The entries of a table; none if it is not one.
+    /// The entries of a table; empty for other values.
     pub fn entries(&self) -> &[Entry] {
         if let Value::Table(entries) = &self.value { entries } else { &[] }
     }
 
-    /// The value of a key, if this is a table that has it.
+    /// The value of a key, if this is a table and has it.
     pub fn get(&self, key: &str) -> Option<&Self> {
         self.entries().iter().find(|entry| entry.key == key).map(|entry| &entry.node)
     }
 
-    /// The deepest node along the path `keys` that exists.
+    /// The deepest existing node along the path `keys`.
     pub fn follow(&self, keys: &[&str]) -> &Self {
         let Some((key, rest)) = keys.split_first() else { return self };
         self.get(key).map_or(self, |node| node.follow(rest))
@@ -107,7 +107,7 @@ impl<V: Into<Value>> FromIterator<V> for Value {
     }
 }
 
-/// As it could stand in a file, but without the contents of tables.
+/// In the syntax of a scene file, except for tables.
 impl Display for Value {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         match self {

@@ -1,4 +1,4 @@
-//! [`SceneBuilder`]: a scene part by part.
+//! [`SceneBuilder`]: collects shapes, materials and lights, and builds a [`Scene`].
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -14,30 +14,31 @@ use crate::spectrum::Spectrum;
 
 /// Why a scene cannot be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SceneError {
-    /// A shape names a material that the scene does not have.
-    #[error("shape {shape:?} wants material {material:?}, which the scene does not have")]
+    /// A shape refers to a material that the scene does not have.
+    #[error("shape {shape:?} refers to material {material:?}, which the scene does not have")]
     UnknownMaterial {
         /// The shape's name.
         shape: String,
-        /// The name it asks for.
+        /// The name of the missing material.
         material: String,
     },
     /// More triangles than [`Accel::MOST_TRIANGLES`].
     #[error("the scene has {0} triangles, more than {max}", max = Accel::MOST_TRIANGLES)]
     TooManyTriangles(usize),
-    /// A mesh is broken.
+    /// A mesh failed [`TriangleMesh::check`].
     #[error("shape {0:?}: {1}")]
     Mesh(String, MeshError),
 }
 
-/// Light from a shape as it was added.
+/// Emission of a shape, before `build`.
 enum NewEmission {
     Constant(Emission),
     Light(Arc<dyn Light>),
 }
 
-/// A shape as it was added.
+/// A shape, before `build`.
 struct NewShape {
     name: String,
     mesh: TriangleMesh,
@@ -45,7 +46,7 @@ struct NewShape {
     emission: Option<NewEmission>,
 }
 
-/// Collects the parts of a [`Scene`] in any order, and checks them at the end.
+/// Collects the parts of a [`Scene`] in any order. [`build`](Self::build) checks them.
 #[derive(Default)]
 pub struct SceneBuilder {
     materials: BTreeMap<String, Arc<dyn Material>>,
@@ -54,20 +55,20 @@ pub struct SceneBuilder {
 }
 
 impl Scene {
-    /// An empty scene to add to.
+    /// An empty builder.
     pub fn builder() -> SceneBuilder {
         SceneBuilder::default()
     }
 }
 
 impl SceneBuilder {
-    /// Adds a material; one of the same name is replaced. One that is held elsewhere too comes in an [`Arc`].
+    /// Adds a material, or replaces the one of that name. To share it, pass an [`Arc`].
     pub fn material(mut self, name: impl Into<String>, material: impl Material + 'static) -> Self {
         self.materials.insert(name.into(), material.into_arc());
         self
     }
 
-    /// Adds a mesh in world space, made of the material of that name.
+    /// Adds a mesh in world space with the material of that name.
     pub fn shape(
         self,
         name: impl Into<String>,
@@ -82,7 +83,7 @@ impl SceneBuilder {
         self.add_shape(name.into(), mesh, None, Some(emission))
     }
 
-    /// Adds a mesh in world space that emits light, made of the material of that name.
+    /// Adds a mesh in world space that emits light and has the material of that name.
     pub fn glowing_shape(
         self,
         name: impl Into<String>,
@@ -105,9 +106,9 @@ impl SceneBuilder {
         self
     }
 
-    /// Adds a mesh in world space whose surface is this light, and which reflects what the material of that name
-    /// does, or nothing. The light has to sample the same mesh, or answer `None`; rays that hit the mesh ask it for
-    /// [`Light::le`], with the place of the hit, so that emission may differ from point to point.
+    /// Adds a mesh in world space as the surface of a light of any kind. The light has to sample the same mesh, or
+    /// to return `None` from [`Light::sample_li`]. Rays that hit the mesh call [`Light::le`] with the hit, so that
+    /// emission may vary over the surface. Without a material the surface reflects nothing.
     pub fn shape_with_light(
         mut self,
         name: impl Into<String>,
@@ -121,16 +122,16 @@ impl SceneBuilder {
         self
     }
 
-    /// Adds a light. One that is held elsewhere too comes in an [`Arc`].
+    /// Adds a light. To share it, pass an [`Arc`].
     pub fn light(mut self, light: impl Light + 'static) -> Self {
         self.lights.push(light.into_arc());
         self
     }
 
-    /// Checks the scene and builds its tree.
+    /// Checks the scene and builds its acceleration structure.
     ///
     /// # Errors
-    /// The first mesh or name that is wrong, or too many triangles.
+    /// The first invalid mesh or unknown material, or too many triangles.
     pub fn build(self) -> Result<Scene, SceneError> {
         let mut shapes = Vec::with_capacity(self.shapes.len());
         let mut meshes = Vec::with_capacity(self.shapes.len());
@@ -146,7 +147,7 @@ impl SceneBuilder {
             };
             let flat_lambertian =
                 material.constant_lambertian().filter(|_| mesh.normals.is_empty());
-            // A mesh without area can neither be seen nor shine.
+            // A mesh without area neither is visible nor emits.
             let light: Option<Arc<dyn Light>> = emission.and_then(|emission| match emission {
                 NewEmission::Constant(Emission { radiance, two_sided }) => {
                     AreaLight::new(&mesh, radiance, two_sided).map(|light| Arc::new(light) as _)

@@ -1,7 +1,7 @@
-//! What is rendered and how it is seen: [`Scene`] and [`View`].
+//! [`Scene`], what is rendered, and [`View`], from where.
 //!
-//! Neither knows the other. A scene is built once, which takes the time of its tree, and can then be rendered in any
-//! view with any settings.
+//! They are independent of each other. A scene builds its acceleration structure once, and can then be rendered in
+//! any view with any settings.
 
 mod builder;
 mod model;

@@ -1,4 +1,4 @@
-//! [`Scene`]: shapes, materials, lights, and the tree of all triangles.
+//! [`Scene`]: shapes, materials, lights, and the acceleration structure.
 
 use std::sync::Arc;
 
@@ -12,8 +12,8 @@ use crate::light::{BoundingSphere, Light};
 use crate::material::Material;
 use crate::shape::TriangleMesh;
 
-/// A checked scene, ready to be rendered: shapes, materials, lights, and the tree of all triangles. It is made by
-/// [`Scene::builder`], or read from a file by [`read_scene`](crate::scene_file::read_scene).
+/// Shapes, materials, lights, and the acceleration structure over all triangles: checked and ready to render.
+/// [`Scene::builder`] makes one, or [`read_scene`](crate::scene_file::read_scene) from a file.
 ///
 /// ```
 /// use lobe::glam::Vec3;
@@ -36,7 +36,7 @@ pub struct Scene {
     pub(super) shapes: Vec<Shape>,
     pub(super) meshes: Vec<TriangleMesh>,
     pub(super) lights: Vec<Arc<dyn Light>>,
-    /// Whether `flat_lambertian` is known for all shapes.
+    /// Whether every shape has a `flat_lambertian` lobe.
     pub(super) is_flat_lambertian: bool,
     pub(super) accel: Accel,
     pub(super) build_seconds: f64,
@@ -53,17 +53,17 @@ pub(super) struct Shape {
 }
 
 impl Scene {
-    /// The lights.
+    /// All lights. Area lights of shapes come last.
     pub fn lights(&self) -> &[Arc<dyn Light>] {
         &self.lights
     }
 
-    /// The tree of all triangles.
+    /// The acceleration structure over all triangles.
     pub fn accel(&self) -> &Accel {
         &self.accel
     }
 
-    /// The shapes' names and meshes, in the order in which they were added.
+    /// Name and mesh of each shape, in the order in which they were added.
     pub fn shapes(&self) -> impl Iterator<Item = (&str, &TriangleMesh)> {
         self.shapes.iter().map(|s| s.name.as_str()).zip(&self.meshes)
     }
@@ -79,7 +79,7 @@ impl Scene {
         BoundingSphere { center: min + max, radius: (max - min).length() }
     }
 
-    /// Index of the light that the surface at a hit is, if it emits.
+    /// Index of the area light to which the surface at a hit belongs, if it emits.
     ///
     /// # Panics
     /// Like [`Scene::interaction`].
@@ -93,13 +93,13 @@ impl Scene {
         self.shapes.iter().filter_map(|shape| shape.light)
     }
 
-    /// The constant lobe of a flat-shaded surface at a hit that has no other; `None` for others and for a miss.
+    /// The constant lobe of the surface at a hit, if it is flat-shaded and has no other; `None` for a miss.
     #[inline]
     pub(crate) fn flat_lambertian(&self, hit: &Hit) -> Option<&LambertianReflection> {
         self.shapes.get(hit.shape as usize)?.flat_lambertian.as_ref()
     }
 
-    /// Whether [`Scene::flat_lambertian`] knows the lobe of every surface.
+    /// Whether [`Scene::flat_lambertian`] returns a lobe for every hit.
     #[inline]
     pub(crate) fn is_flat_lambertian(&self) -> bool {
         self.is_flat_lambertian
@@ -116,12 +116,12 @@ impl Scene {
         [&positions[a as usize], &positions[b as usize], &positions[c as usize]]
     }
 
-    /// How long the tree took to build, in seconds.
+    /// Wall-clock time to build the acceleration structure, in seconds.
     pub fn build_seconds(&self) -> f64 {
         self.build_seconds
     }
 
-    /// The surface at a hit of `ray`, whose direction has unit length.
+    /// The surface at a hit of `ray`, whose direction must have unit length.
     ///
     /// # Panics
     /// If `hit` is a miss, or a hit in another scene.
@@ -132,8 +132,8 @@ impl Scene {
         SurfaceInteraction::on_shape(mesh, place, -ray.d)
     }
 
-    /// How the surface scatters light at a hit, whose interaction may get a shading frame from its material. This is the
-    /// one place where hits are turned into lobes.
+    /// The lobes at a hit. The material may replace the shading geometry of `si`. All integrators turn hits into
+    /// lobes by this method.
     ///
     /// # Panics
     /// Like [`Scene::interaction`].

@@ -1,4 +1,4 @@
-//! Settings of the film, and of surfaces that emit, as plain values.
+//! Settings of film and emission, as plain values.
 
 use glam::UVec2;
 
@@ -6,21 +6,21 @@ use crate::film::Filter;
 use crate::image::{Display, Window};
 use crate::spectrum::Spectrum;
 
-/// The size of the image, the part of it that is rendered, its filter, and how it is shown.
+/// Resolution, crop, display curve and reconstruction filter of the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmSettings {
     /// Columns and rows of the image.
     pub resolution: UVec2,
-    /// The part of it to render, within the image and not empty; `None` for all of it.
+    /// Part of the image to render: within the image and not empty; `None` for all of it.
     pub crop: Option<Window>,
-    /// The curve from radiance to the codes of a PNG.
+    /// Tone curve from radiance to the codes of a PNG.
     pub display: Display,
     /// The reconstruction filter.
     pub filter: Filter,
 }
 
 impl FilmSettings {
-    /// An image of `width` × `height` pixels, and otherwise the default.
+    /// An image of `width` × `height` pixels, with default settings.
     pub fn new(width: u32, height: u32) -> Self {
         Self { resolution: UVec2::new(width, height), ..Self::default() }
     }
@@ -32,7 +32,7 @@ impl FilmSettings {
 }
 
 impl FilmSettings {
-    /// 500 × 500 pixels with a box filter, shown by the sRGB curve.
+    /// 500 × 500 pixels with a box filter and the sRGB curve.
     pub const DEFAULT: Self = Self {
         resolution: UVec2::splat(500),
         crop: None,
@@ -48,11 +48,11 @@ impl Default for FilmSettings {
     }
 }
 
-/// Light that a surface emits, the same in all directions.
+/// Emission of a surface, the same in all directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
     /// Radiance in W / (m² sr), at least 0 in each band.
     pub radiance: Spectrum,
-    /// Whether both sides emit, or the outside alone: see [`AreaLight`](crate::light::AreaLight).
+    /// Whether both sides emit, or only the outer one: see [`AreaLight`](crate::light::AreaLight).
     pub two_sided: bool,
 }

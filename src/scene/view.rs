@@ -1,4 +1,4 @@
-//! [`View`]: how a scene is seen.
+//! [`View`]: camera and film.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::geometry::Ray;
 use crate::image::Window;
 use crate::sampling::SampleId;
 
-/// Why there is no view.
+/// Why a view cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ViewError {
@@ -30,13 +30,13 @@ pub enum ViewError {
         /// Columns and rows of the film.
         film: UVec2,
     },
-    /// The part of the image to render is empty or sticks out.
+    /// The crop is empty or exceeds the image.
     #[error(
         "the film's crop {corners:?} is empty or reaches beyond its resolution of {1} x {2}",
         corners = [.0.min, .0.max].map(|corner| corner.to_array()).as_flattened()
     )]
     Crop(Window, u32, u32),
-    /// The filter covers nothing, or too much.
+    /// The filter's radius or another parameter is out of range.
     #[error(transparent)]
     Filter(#[from] FilterError),
 }
@@ -45,8 +45,8 @@ fn size(resolution: UVec2) -> String {
     format!("{} x {}", resolution.x, resolution.y)
 }
 
-/// How a scene is seen: a camera and a film of the same resolution. It knows nothing of the scene, so one scene can be
-/// rendered in any number of views, and one view can show any number of scenes.
+/// A camera and a film of the same resolution. It is independent of the scene, so one scene can be rendered in any
+/// number of views.
 ///
 /// ```
 /// use lobe::glam::Vec3;
@@ -58,7 +58,7 @@ fn size(resolution: UVec2) -> String {
 /// let front = PerspectiveSettings { eye: Vec3::NEG_Z, look_at: Vec3::ZERO, ..Default::default() };
 /// let side = PerspectiveSettings { eye: Vec3::X, ..front };
 /// for camera in [front, side] {
-///     // The tree of the scene is built once, above.
+// All views share the scene's acceleration structure.
 ///     let view = View::perspective(&camera, film)?;
 ///     let rendered =
 ///         render(&scene, &view, &RenderSettings::default(), &RenderOptions::default())?;
@@ -74,11 +74,11 @@ pub struct View {
 }
 
 impl View {
-    /// The view of this camera on this film. `Arc<dyn Camera>` is a camera too.
+    /// A view of this camera on this film. `Arc<dyn Camera>` is a camera too.
     ///
     /// # Errors
-    /// If the film has no pixels, another resolution than the camera, a crop that is empty or reaches beyond it, or a
-    /// filter out of range.
+    /// If the film has no pixels or another resolution than the camera, if the crop is empty or exceeds the image, or
+    /// if the filter's settings are out of range.
     pub fn new(camera: impl Camera + 'static, film: FilmSettings) -> Result<Self, ViewError> {
         let resolution = film.resolution;
         if resolution.min_element() == 0 {
@@ -95,10 +95,10 @@ impl View {
         Ok(Self { camera: Arc::new(camera), film, filter })
     }
 
-    /// The view of a perspective camera on this film.
+    /// A view of a perspective camera on this film.
     ///
     /// # Errors
-    /// If [`PerspectiveCamera::new`] or [`View::new`] refuses a setting.
+    /// Those of [`PerspectiveCamera::new`] and [`View::new`].
     pub fn perspective(
         camera: &PerspectiveSettings,
         film: FilmSettings,
@@ -121,8 +121,8 @@ impl View {
         &self.filter
     }
 
-    /// The rays of samples, in their order. `film` holds uniform samples in `[0, 1)²` of the filter, which become
-    /// points of the pixels, and `lens` those of the lens, or zeros.
+    /// Generates the rays of samples, in their order. `film` holds uniform values in `[0, 1)²`, which are warped in
+    /// place to offsets from the pixel by the filter; `lens` holds those for the lens, or zeros.
     #[inline(never)]
     pub(crate) fn generate_rays(
         &self,
@@ -134,7 +134,7 @@ impl View {
         if self.film.filter != Filter::Box {
             film.iter_mut().for_each(|u| *u = self.filter.place(*u));
         }
-        // What is left of other rays is overwritten.
+        // The previous contents are overwritten.
         rays.resize(ids.len(), Ray::new(Vec3::ZERO, Vec3::Z));
         let (mut rays, mut offsets, mut lens) = (&mut rays[..], &*film, lens);
         for of_set in SampleId::sets(ids) {

@@ -1,4 +1,4 @@
-//! From a document to a scene.
+//! Conversion of a document to a scene.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use crate::scene::{Emission, FilmSettings, Scene, SceneBuilder, SceneError, View
 use crate::shape::{Load, ObjMesh, ObjReport};
 use crate::texture::Textures;
 
-/// A scene before its meshes are read. Lists are in the order of the file.
+/// A scene before its meshes are loaded. Lists are in the order of the file.
 pub struct Description {
     view: View,
     pub settings: RenderSettings,
@@ -27,14 +27,14 @@ pub struct Description {
 
 struct Shape {
     load: Load,
-    /// The name of its material with its place; none for a light that reflects nothing.
+    /// Name of the material and position of that name; `None` for an emitter that reflects nothing.
     material: Option<(String, Mark)>,
     emission: Option<Emission>,
-    /// From the mesh to the world.
+    /// From mesh to world space.
     transform: Affine3A,
 }
 
-/// Reads all tables. No file is read.
+/// Reads all tables. Mesh files are not opened.
 pub fn describe(document: &Document) -> Result<Description, Fault> {
     let root = document.table("the scene", &SECTIONS.map(|section| section.key()))?;
     let film = film(root.table(sections::FILM.key)?)?;
@@ -73,7 +73,7 @@ fn all<T, U>(tables: Vec<T>, read: impl FnMut(T) -> Result<U, Fault>) -> Result<
     tables.into_iter().map(read).collect()
 }
 
-/// Only the crop can still be wrong: what else a view refuses, its keys have refused.
+/// Only the crop can be invalid here: the keys have checked everything else.
 fn view(camera: Arc<dyn Camera>, film: FilmSettings, document: &Document) -> Result<View, Fault> {
     View::new(camera, film).map_err(|error| {
         let keys = [sections::FILM.key, sections::CROP.name()];
@@ -126,13 +126,13 @@ fn shape(table: Table) -> Result<Shape, Fault> {
             load,
             material: material.map(|material| (material, mark)),
             emission,
-            // Scaled first, moved last.
+            // Scale, then rotate, then translate.
             transform: Affine3A::from_scale_rotation_translation(scale, rotation, translation),
         })
     })
 }
 
-/// Looks up materials, reads the meshes and builds the scene.
+/// Looks up materials, loads the meshes and builds the scene.
 pub fn build(
     description: Description,
     document: &Document,

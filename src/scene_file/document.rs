@@ -1,4 +1,4 @@
-//! [`Source`]: the texts of a scene, and the tree that they make together.
+//! [`Source`]: the texts of a scene, and the document that they form.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use super::overrides;
 use super::toml_tree::parse;
 use crate::params::{Document, Fault};
 
-/// The texts that make up a scene: number 0 is the file, the others are the overrides in their order.
+/// The texts of a scene: index 0 is the file, the others are the overrides in their order.
 pub struct Source<'a> {
     path: &'a Path,
     text: &'a str,
@@ -19,8 +19,8 @@ impl<'a> Source<'a> {
         Self { path, text: text.strip_prefix('\u{FEFF}').unwrap_or(text), overrides }
     }
 
-    /// Parses the file and applies the overrides to it, one after the other. Paths in the file are relative to its
-    /// folder, those in overrides to the current directory.
+    /// Parses the file and applies the overrides in order. Paths in the file are relative to its folder, paths in
+    /// overrides to the current directory.
     pub fn parse(&self) -> Result<Document, SceneFileError> {
         let mut root = self.place(parse(self.text, 0))?;
         for (i, text) in self.overrides.iter().enumerate() {
@@ -30,7 +30,7 @@ impl<'a> Source<'a> {
         Ok(Document { root, folders: vec![folder] })
     }
 
-    /// Turns the mark of a fault into a place.
+    /// Converts the mark of a fault to a place in a file or an override.
     pub fn place<T>(&self, result: Result<T, Fault>) -> Result<T, SceneFileError> {
         result.map_err(|Fault { mark, problem }| {
             let place = match mark.source {
@@ -42,7 +42,7 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Line and column of a byte.
+/// Line and column of a byte offset.
 pub fn file_place(path: &Path, text: &[u8], offset: usize) -> Place {
     let before = &text[..offset.min(text.len())];
     let line_start = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);

@@ -1,4 +1,4 @@
-//! [`SceneFileError`]: why a scene file gives no scene, and where.
+//! [`SceneFileError`]: why a scene file cannot be read, and where.
 
 use std::fmt::{self, Display, Formatter};
 use std::io;
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use crate::params::Problem;
 
-/// Why a scene file gives no scene. Each message is one sentence that begins with the place:
+/// Why a scene file cannot be read. Each message is one sentence that begins with the position:
 /// ``scene.toml:3:1: unknown key `fvo` in [camera]; did you mean `fov`?``
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -14,15 +14,15 @@ pub enum SceneFileError {
     /// The file cannot be read.
     #[error("{}: {}", path.display(), unreadable(source))]
     Unreadable {
-        /// The file, as the caller named it.
+        /// The path, as passed by the caller.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
-    /// The file can be read, but something in it is wrong.
+    /// The file can be read, but its contents are invalid.
     #[error("{place}: {problem}")]
     Wrong {
-        /// Where.
+        /// Position.
         place: Place,
         /// What is wrong there.
         problem: Problem,
@@ -37,13 +37,13 @@ fn unreadable(source: &io::Error) -> String {
     }
 }
 
-/// Where something stands that makes up a scene.
+/// A position in the texts of a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Place {
     /// In the scene file.
     File {
-        /// The file, as the caller named it.
+        /// The path, as passed by the caller.
         path: PathBuf,
         /// The line, counted from 1.
         line: usize,
@@ -52,7 +52,7 @@ pub enum Place {
     },
     /// In an override.
     Override {
-        /// All of it.
+        /// The whole override.
         text: String,
     },
 }
@@ -67,7 +67,7 @@ impl Display for Place {
     }
 }
 
-/// What is wrong with the text of a scene file or of an override; found in [`Problem::Other`].
+/// An error in the text of a scene file or an override; contained in [`Problem::Other`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TextProblem {
@@ -77,7 +77,7 @@ pub enum TextProblem {
     /// An override is not of the form KEY=VALUE.
     #[error("expected KEY=VALUE, as in camera.fov=40")]
     NoAssignment,
-    /// The value of an override is a bare word.
-    #[error("text as a value stands in quotes: --set '{0}'")]
+    /// The value of an override is text without quotes.
+    #[error("text values need quotes: --set '{0}'")]
     Unquoted(String),
 }

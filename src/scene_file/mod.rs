@@ -1,7 +1,7 @@
-//! Scene files: TOML with overrides, errors with line and column, and the scene that comes of it.
+//! Scene files: TOML with overrides, and errors with line and column.
 //!
-//! The text becomes a [`params`](crate::params) tree, whose tables are read by the registries of their rooms:
-//! [`SECTIONS`] says which. [docs/scene-format.md] lists all of them with their keys; `lobe help scene-format` prints it.
+//! The text is parsed to a [`params`](crate::params) tree, whose tables are read by the registries that
+//! [`SECTIONS`] lists. [docs/scene-format.md] documents all tables and keys; `lobe help scene-format` prints the same page.
 //!
 //! [docs/scene-format.md]: https://docs.rs/crate/lobe/latest/source/docs/scene-format.md
 
@@ -24,33 +24,32 @@ use crate::scene::{Scene, View};
 use crate::shape::ObjReport;
 use document::Source;
 
-/// A scene that was read from a file.
+/// A scene, view and settings from a file.
 pub struct LoadedScene {
     /// The scene.
     pub scene: Scene,
-    /// How it is seen.
+    /// Camera and film.
     pub view: View,
-    /// How it is sampled and lit.
+    /// Sampler and integrator.
     pub settings: RenderSettings,
-    /// What was noticed on the way.
+    /// Load time and warnings about meshes.
     pub report: LoadReport,
 }
 
-/// What reading a scene took, and what is odd about its meshes.
+/// Load time of a scene, and warnings about its meshes.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct LoadReport {
-    /// Wall-clock time in seconds, without the building of the tree.
+    /// Wall-clock time in seconds, without building the acceleration structure.
     pub seconds: f64,
-    /// What is odd about each mesh, in the order of [`Scene::shapes`].
+    /// Warnings about each mesh, in the order of [`Scene::shapes`].
     pub meshes: Vec<ObjReport>,
 }
 
 /// Reads the scene file at `path` with `overrides`. See [`parse_scene`].
 ///
 /// # Errors
-/// If the file cannot be read, or for what [`parse_scene`] refuses. The messages name the file by
-/// `path`.
+/// If the file cannot be read, and those of [`parse_scene`]. Messages name the file by `path`.
 pub fn read_scene(path: &Path, overrides: &[&str]) -> Result<LoadedScene, SceneFileError> {
     let start = Stopwatch::start();
     let text = read_text(path)?;
@@ -59,10 +58,10 @@ pub fn read_scene(path: &Path, overrides: &[&str]) -> Result<LoadedScene, SceneF
     Ok(loaded)
 }
 
-/// How the scene file at `path` with `overrides` wants to be sampled and lit. No mesh is read.
+/// Reads only sampler and integrator of the scene file at `path` with `overrides`. Meshes are not loaded.
 ///
 /// # Errors
-/// As for [`read_scene`], but for what is wrong with names and meshes.
+/// Those of [`read_scene`], except for unknown materials and invalid meshes.
 pub fn read_settings(path: &Path, overrides: &[&str]) -> Result<RenderSettings, SceneFileError> {
     let text = read_text(path)?;
     let source = Source::new(path, &text, overrides);
@@ -80,18 +79,17 @@ fn read_text(path: &Path) -> Result<String, SceneFileError> {
     })
 }
 
-/// Makes a scene from the text of a scene file, and from the meshes it names.
+/// Builds a scene from the text of a scene file and the meshes it refers to.
 ///
-/// `path` stands for the file in messages; it need not exist. Names of OBJ files are relative to its
-/// folder.
+/// `path` is the file's name in messages, and need not exist. Paths of OBJ files are relative to its folder.
 ///
-/// Each of `overrides` is `KEY=VALUE` in TOML, such as `camera.fov=40`, and replaces or adds that
-/// value; later ones win. An OBJ file that it names is relative to the current directory. It cannot
-/// add a texture, material, light or shape.
+/// Each of `overrides` is `KEY=VALUE` in TOML, such as `camera.fov=40`, and replaces or adds that value; later
+/// overrides win. Paths in overrides are relative to the current directory. Overrides cannot add textures,
+/// materials, lights or shapes.
 ///
 /// # The format
-/// Every table and every key may be left out unless it is said to be required; one that is not known is an error.
-/// `docs/scene-format.md` lists them, which `lobe help scene-format` prints.
+/// All tables and keys are optional unless documented as required; unknown ones are errors.
+/// `docs/scene-format.md` lists them, and `lobe help scene-format` prints the same page.
 ///
 /// ```
 /// use lobe::scene_file::parse_scene;
@@ -109,7 +107,7 @@ fn read_text(path: &Path) -> Result<String, SceneFileError> {
 /// ```
 ///
 /// # Errors
-/// The first thing that is wrong, with its line and column or its override.
+/// The first error, with its line and column or its override.
 pub fn parse_scene(
     path: &Path,
     text: &str,

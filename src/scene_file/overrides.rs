@@ -1,14 +1,14 @@
-//! Overrides: `KEY=VALUE` in TOML, laid over a scene file.
+//! Overrides: `KEY=VALUE` in TOML, merged into a scene file.
 
 use super::error::TextProblem;
 use super::sections::SECTIONS;
 use super::toml_tree::parse;
 use crate::params::{Fault, Mark, Node, Problem, Value};
 
-/// Replaces or adds the value that `text`, number `source`, gives to a key.
+/// Sets a key of the document to the value in the override `text`, whose index is `source`.
 ///
-/// A key that is new to the file may be one with a default: whether it is known is left to those who
-/// read the tree. But what has a name of the user's must be there.
+/// Keys that the file does not have are added, and checked later by the tables' readers. But textures, materials,
+/// lights and shapes have to exist.
 pub fn apply(root: &mut Node, text: &str, source: usize) -> Result<(), Fault> {
     let mark = Mark { source, offset: 0 };
     let fault = |problem| Fault::new(mark, problem);
@@ -37,7 +37,7 @@ pub fn apply(root: &mut Node, text: &str, source: usize) -> Result<(), Fault> {
     Ok(())
 }
 
-/// A bare word as a value is what a shell leaves of a text in quotes: show how to write it.
+/// A shell removes the quotes around a string. If adding them makes the override valid, suggests that.
 fn quoted(key: &str, value: &str) -> Option<TextProblem> {
     let is_word = value.starts_with(|c: char| c.is_alphabetic() || "./~_".contains(c));
     let quoted = format!("{key}=\"{value}\"");

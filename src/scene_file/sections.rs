@@ -1,4 +1,4 @@
-//! The tables of a scene file: which registry reads each, and what all of its kinds have in common.
+//! The tables of a scene file: the registry that reads each, and the keys that all of its kinds share.
 
 use glam::{UVec2, Vec3};
 
@@ -16,7 +16,7 @@ use crate::shape::{self, SHAPES};
 use crate::spectrum::Spectrum;
 use crate::texture::{self, TEXTURES};
 
-/// All tables, in the order in which they are documented.
+/// All tables, in the order of the documentation.
 pub static SECTIONS: [&dyn AnySection; 8] =
     [&CAMERA, &FILM, &SAMPLER, &INTEGRATOR, &TEXTURE, &MATERIAL, &LIGHT, &SHAPE];
 
@@ -35,7 +35,7 @@ pub const RESOLUTION: Key<UVec2> = Key::new("resolution", "columns and rows of t
     .default(FilmSettings::DEFAULT.resolution);
 pub const CROP: Key<Option<[u32; 4]>> = Key::optional(
     "crop",
-    "the part to render, [x0, y0, x1, y1] without column x1 and row y1; all of the image without it",
+    "the part to render, [x0, y0, x1, y1] without column x1 and row y1; all of the image if left out",
 );
 pub const DISPLAY: Key<Display> =
     Key::new("display", "the curve of a PNG: sRGB's, or 1 - exp(-4 L)")
@@ -54,11 +54,11 @@ pub static FILM: Section<ReadFilter> = Section {
 pub const SPP: Key<u32> =
     Key::new("spp", "samples per pixel").at_least(1.0).default(SamplerSettings::DEFAULT.spp);
 pub const SEED: Key<u64> =
-    Key::new("seed", "each gives other samples").default(SamplerSettings::DEFAULT.seed);
+    Key::new("seed", "seed of the random numbers").default(SamplerSettings::DEFAULT.seed);
 pub const REPLICATES: Key<u32> = Key::new(
     "replicates",
-    "independent sets to tell the error from, of all samplers but \"independent\"; of them the largest number that \
-     divides spp",
+    "independent sets of samples, from which the error is estimated; for all samplers but \"independent\". Rounded \
+     down to a divisor of spp",
 )
 .default(SamplerSettings::DEFAULT.replicates);
 
@@ -114,14 +114,14 @@ pub static LIGHT: Section<light::Read> = Section {
 
 pub const SHAPE_MATERIAL: Key<Option<String>> = Key::optional(
     MATERIAL.key,
-    "name of its material; required unless it emits, and then it reflects nothing without one",
+    "name of the material; required unless the shape emits light, and a shape without one reflects nothing",
 );
 pub const EMISSION: Key<Option<Spectrum>> =
-    Key::optional("emission", "radiance that it sends out, in W / (m² sr)").at_least(0.0);
+    Key::optional("emission", "emitted radiance, in W / (m² sr)").at_least(0.0);
 pub const TWO_SIDED: Key<bool> =
-    Key::new("two_sided", "whether it emits on both sides, or outside alone").default(false);
+    Key::new("two_sided", "whether both sides emit, or only the outer one").default(false);
 pub const SCALE: Key<Scale> =
-    Key::new("scale", "one factor, or those along x, y and z").default(Scale(Vec3::ONE));
+    Key::new("scale", "one factor, or factors along x, y and z").default(Scale(Vec3::ONE));
 pub const ROTATE: Key<Option<Rotation>> =
     Key::optional("rotate", "about an axis through the origin; about +z from x to y");
 pub const TRANSLATE: Key<Vec3> = Key::new("translate", "in scene units").default(Vec3::ZERO);

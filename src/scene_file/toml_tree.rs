@@ -1,4 +1,4 @@
-//! From the text of a TOML file to a tree in which every value has its place.
+//! Conversion of TOML to a tree in which every value has its position.
 
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
@@ -6,7 +6,7 @@ use toml::de::{DeString, DeTable, DeValue};
 use super::error::TextProblem;
 use crate::params::{Entry, Fault, Mark, Node, Value};
 
-/// The tree of a text, whose number is `source`.
+/// The tree of a text, which is source number `source` of its document.
 pub fn parse(text: &str, source: usize) -> Result<Node, Fault> {
     match DeTable::parse(text) {
         Ok(table) => {
@@ -27,7 +27,7 @@ fn entries(table: &DeTable, source: usize) -> Vec<Entry> {
         node: node(value, source),
     };
     let mut entries: Vec<Entry> = table.iter().map(entry).collect();
-    // The parser sorts by name.
+    // The parser sorts keys by name: restore the order of the text.
     entries.sort_by_key(|entry| entry.mark.offset);
     entries
 }
@@ -37,7 +37,7 @@ fn node(value: &Spanned<DeValue>, source: usize) -> Node {
     let value = match value.get_ref() {
         DeValue::Boolean(value) => Value::Boolean(*value),
         DeValue::Integer(value) if value.radix() == 10 => Value::Number(value.as_str().into()),
-        // One that does not even fit here stays as it is, which is no number to anyone.
+        // Integers beyond u128 stay in their notation, which no number type parses.
         DeValue::Integer(value) => Value::Number(
             u128::from_str_radix(value.as_str(), value.radix())
                 .map_or(value.to_string(), |value| value.to_string()),

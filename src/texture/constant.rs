@@ -5,7 +5,7 @@ use crate::interaction::SurfaceInteraction;
 use crate::params::{Fault, Key, Kind, Limits, Param, Table, Value};
 use crate::spectrum::Spectrum;
 
-/// The same value at every point. It needs no texture coordinates and no filtering.
+/// The same value at every point. It needs neither texture coordinates nor filtering.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConstantTexture<T> {
     value: T,
@@ -29,7 +29,7 @@ impl<T: Copy + Send + Sync> Texture<T> for ConstantTexture<T> {
     }
 }
 
-/// A number or a colour.
+/// A number or a colour, as in a scene file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Constant {
     Number(f32),

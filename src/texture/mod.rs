@@ -1,4 +1,4 @@
-//! Textures: values that may change over a surface.
+//! Textures: values that may vary over a surface.
 
 mod constant;
 mod read;
@@ -10,5 +10,5 @@ pub use traits::{Texture, TextureHandle};
 
 use crate::params::Kind;
 
-/// All kinds of textures.
+/// All kinds of textures of scene files.
 pub static TEXTURES: &[Kind<Read>] = &[constant::KIND];

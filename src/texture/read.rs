@@ -1,27 +1,28 @@
-//! [`TextureKey`] and [`Textures`]: how materials of scene files name their textures.
+//! [`TextureKey`] and [`Textures`]: how scene files refer to textures.
 
 use super::traits::{Texture, TextureHandle};
 use crate::params::{AnyKey, Fault, Key, Param, Problem, Table, Value};
 use crate::spectrum::Spectrum;
 
-/// How a kind of texture is read. It may use textures that stand above it.
+/// Function that reads a kind of texture from a scene file. It may use textures defined earlier.
 pub type Read = fn(&Table, &Textures) -> Result<AnyTexture, Fault>;
 
-/// A texture of any value.
+/// A texture whose value type is known at run time only.
 #[derive(Clone)]
+#[non_exhaustive]
 pub enum AnyTexture {
-    /// Of numbers.
+    /// With values of type `f32`.
     Number(TextureHandle<f32>),
-    /// Of colours.
+    /// With values of type [`Spectrum`].
     Color(TextureHandle<Spectrum>),
 }
 
-/// A type that a texture can have as its value.
+/// A type of values that textures of scene files can have.
 pub trait TextureValue: Param + Copy {
-    /// The texture, if it has this value.
+    /// The texture, if its values have this type.
     fn of(texture: &AnyTexture) -> Option<&TextureHandle<Self>>;
 
-    /// The texture that has this value everywhere.
+    /// A constant texture of this value.
     fn everywhere(self) -> TextureHandle<Self>;
 }
 
@@ -45,7 +46,7 @@ impl TextureValue for Spectrum {
     }
 }
 
-/// A key whose value is the name of a texture, or a constant in its place. Range and default are the constant's.
+/// A key whose value is the name of a texture, or a constant. Range and default apply to the constant.
 ///
 /// ```
 /// use lobe::params::Key;
@@ -58,7 +59,7 @@ impl TextureValue for Spectrum {
 pub struct TextureKey<T>(Key<T>);
 
 impl<T> TextureKey<T> {
-    /// A key for textures with values of this key.
+    /// A texture key with name, range, default and meaning of `key`.
     pub const fn of(key: Key<T>) -> Self {
         Self(key)
     }
@@ -90,7 +91,7 @@ impl<T: Param> AnyKey for TextureKey<T> {
     }
 }
 
-/// The textures of a scene by their names.
+/// The textures of a scene, by name.
 #[derive(Clone, Default)]
 pub struct Textures(Vec<(String, AnyTexture)>);
 
@@ -100,11 +101,11 @@ impl Textures {
         self.0.push((name.into(), texture));
     }
 
-    /// The texture that a key names, or the constant in its place.
+    /// The texture that the key's value names, or a constant texture if the value is a number or a colour.
     ///
     /// # Errors
-    /// If there is no texture of that name, if it has values of another type, or if a constant is out of range; or
-    /// as for [`Table::get`].
+    /// If there is no texture of that name, if its values have another type, or if a constant is out of range;
+    /// and those of [`Table::get`].
     pub fn get<T: TextureValue>(
         &self,
         table: &Table,
@@ -116,10 +117,10 @@ impl Textures {
         }
     }
 
-    /// The same for a key that may be left out.
+    /// The same for an optional key.
     ///
     /// # Errors
-    /// As for [`Textures::get`].
+    /// Those of [`Textures::get`].
     pub fn find<T: TextureValue>(
         &self,
         table: &Table,
@@ -131,7 +132,8 @@ impl Textures {
         }
     }
 
-    /// The texture that a key names. `None` if it has a constant, whose key is `constant`, or is left out.
+    /// The texture that the key's value names. `None` if the key is missing or its value is a constant. A texture
+    /// that is itself constant has to be in the range of the key `constant`.
     fn named<T: TextureValue>(
         &self,
         table: &Table,
@@ -150,7 +152,7 @@ impl Textures {
             return Err(Fault { mark: node.mark, problem });
         };
         let found = T::of(texture);
-        // Of other textures the values are not known before they are asked.
+        // Only constant textures can be checked against the range here.
         let value = found.and_then(|texture| texture.constant()).and_then(|value| value.to_value());
         let is_fit = value.is_none_or(|value| constant.accepts(&value));
         found.filter(|_| is_fit).cloned().map(Some).ok_or_else(|| {
@@ -160,7 +162,7 @@ impl Textures {
     }
 }
 
-/// Its constant value, or the type of its values.
+/// The texture's constant value, or the type of its values.
 fn describe(texture: &AnyTexture) -> String {
     fn of<T: TextureValue>(texture: &TextureHandle<T>, kind: &str) -> String {
         let value = texture.constant().and_then(|value| value.to_value());

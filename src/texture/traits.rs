@@ -1,12 +1,12 @@
-//! The contract of textures, and how materials hold them.
+//! [`Texture`], the trait of textures, and how materials store them.
 
 use std::sync::Arc;
 
 use crate::interaction::SurfaceInteraction;
 use crate::spectrum::Spectrum;
 
-/// A map from points of surfaces to values of type `T`: `f32` for roughness, displacement and the
-/// like, [`Spectrum`] for colours. Values and functions of a hit are textures too.
+/// A function from points on surfaces to values of type `T`: `f32` for roughness or displacement,
+/// [`Spectrum`] for colours. Constants and closures are textures too.
 ///
 /// ```
 /// use lobe::MatteMaterial;
@@ -14,7 +14,7 @@ use crate::spectrum::Spectrum;
 /// use lobe::interaction::SurfaceInteraction;
 /// use lobe::texture::Texture;
 ///
-/// /// Stripes along u, each of this width.
+/// /// Stripes along u, each of the given width.
 /// struct Stripes(f32);
 ///
 /// impl Texture<f32> for Stripes {
@@ -27,15 +27,15 @@ use crate::spectrum::Spectrum;
 /// let striped = MatteMaterial::new(heights).with_bump(Stripes(0.1));
 /// ```
 pub trait Texture<T>: Send + Sync {
-    /// The value at a hit. What it does not ask the interaction for is not computed.
+    /// The value at a hit. The interaction computes only the quantities that this method reads.
     fn evaluate(&self, si: &SurfaceInteraction) -> T;
 
-    /// The value if it is the same everywhere: it is then read without a call.
+    /// The value, if it is the same everywhere: it is then stored in place and read without a call.
     fn constant(&self) -> Option<T> {
         None
     }
 
-    /// The texture as a material holds it.
+    /// Converts the texture to the form in which materials store it.
     fn into_handle(self) -> TextureHandle<T>
     where
         Self: Sized + 'static,
@@ -45,10 +45,9 @@ pub trait Texture<T>: Send + Sync {
     }
 }
 
-/// A texture as a material holds it: a constant in place, or anyone's texture behind a pointer.
+/// A texture as materials store it: a constant in place, or any other texture behind a pointer.
 ///
-/// It is made by [`Texture::into_handle`]. A constant is read without a call: `benches/shading.rs` has the
-/// figures.
+/// [`Texture::into_handle`] makes one. `benches/shading.rs` measures what a constant saves.
 #[derive(Clone)]
 pub enum TextureHandle<T> {
     /// The same value everywhere.
@@ -113,7 +112,7 @@ impl<T: 'static, X: Texture<T> + 'static> Texture<T> for Arc<X> {
     }
 }
 
-/// A value stands for the texture that has it everywhere.
+/// Values are constant textures.
 macro_rules! values {
     ($($value:ty as $t:ty),*) => {$(
         impl Texture<$t> for $value {

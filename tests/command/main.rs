@@ -267,7 +267,7 @@ fn bad_overrides() {
     );
     folder.fails(
         "render s.toml --set shape.wall.obj=no.obj",
-        "--set shape.wall.obj=no.obj: text as a value stands in quotes: --set 'shape.wall.obj=\"no.obj\"'",
+        "--set shape.wall.obj=no.obj: text values need quotes: --set 'shape.wall.obj=\"no.obj\"'",
     );
 }
 

@@ -12,14 +12,14 @@ use crate::summary::Summary;
 const EXAMPLES: &str = "\
 Examples:
   lobe compare a.exr reference.exr
-  lobe compare a.exr reference.exr --fail-above relmse=1e-3    exit code 1 if it is more
+  lobe compare a.exr reference.exr --fail-above relmse=1e-3    exit code 1 if relMSE is above 1e-3
   lobe compare a.exr reference.exr --maps error        error-absolute.png, error-signed.png, error-flip.png
 
 relMSE is the mean of (a - b)² / (b² + 0.01), where b is the reference. The peak of PSNR is
-1 for PNG files and the reference's largest value for radiance. FLIP is the difference that
-a viewer sees who flips between both images, 0.7 m in front of a 4K screen 0.7 m wide; for
-radiance it is the maximum over several exposures. The Z-test relies on the variance layers
-of both files, which are underestimated where few samples agree by chance.";
+1 for PNG files and the reference's largest value for radiance. FLIP is the perceived
+difference when flipping between both images, 0.7 m in front of a 4K screen 0.7 m wide; for
+radiance it is the maximum over several exposures. The Z-test uses the variance layers of
+both files, which are too low where few samples agree by chance.";
 
 /// Compares an image with a reference: MSE, MAE, relMSE, PSNR, FLIP, and whether noise explains the difference
 #[derive(Args)]
@@ -43,7 +43,7 @@ pub struct Arguments {
     maps: Option<PathBuf>,
 }
 
-/// A number that `--fail-above` can limit.
+/// A metric that `--fail-above` can limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Metric {
     Mse,

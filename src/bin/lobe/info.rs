@@ -1,4 +1,4 @@
-//! `lobe info`: what is in a scene file.
+//! `lobe info`: the contents of a scene file.
 
 use std::error::Error;
 
@@ -16,10 +16,10 @@ use crate::summary::Summary;
 const EXAMPLES: &str = "\
 Examples:
   lobe info chapter8.toml
-  lobe info chapter8.toml --set shape.dragon.scale=2    how large it would be then
+  lobe info chapter8.toml --set shape.dragon.scale=2    bounds at twice the size
   lobe info chapter8.toml | awk '$1 == \"triangles\" { print $2 }'";
 
-/// Tells what is in a scene file: settings, triangles, bounds, tree, memory
+/// Shows the contents of a scene file: settings, triangles, bounds, tree, memory
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
 
 const MIB: f64 = (1 << 20) as f64;
 
-/// What a mesh takes, in bytes.
+/// Memory of a mesh, in bytes.
 fn memory(mesh: &TriangleMesh) -> usize {
     let TriangleMesh { positions, normals, uvs, indices } = mesh;
     size_of_val(&positions[..])

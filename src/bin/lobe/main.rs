@@ -1,4 +1,4 @@
-//! The command `lobe`: renders scene files, tells what is in them, and how far images are apart.
+//! The command `lobe`: renders scene files, shows what they contain, and compares images.
 
 mod chart;
 mod compare;
@@ -23,11 +23,11 @@ Examples:
   lobe render scene.toml -o a.png --spp 256 --set camera.fov=40
   lobe info scene.toml                                  triangles, bounds, tree, memory
   lobe compare a.exr reference.exr                      errors, FLIP, and whether noise explains them
-  lobe chart scene.toml                                 what accuracy costs, by each method
-  lobe chart --stability                                where methods fail
+  lobe chart scene.toml                                 error against time, for each method
+  lobe chart --stability                                where methods fail numerically
   lobe help materials                                   kinds of materials, their keys and ranges
 
-`lobe help render` and so on have more of them.";
+`lobe help render` and so on show more examples.";
 
 /// Renders scenes of triangle meshes with PBRT's materials and reflection.
 #[derive(Parser)]
@@ -58,7 +58,7 @@ fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            // If nobody listens, the exit code still tells.
+            // If stderr is closed, the exit code still reports the failure.
             let _ = writeln!(std::io::stderr(), "error: {error}");
             ExitCode::FAILURE
         }

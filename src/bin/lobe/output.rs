@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use lobe::image::{Display, Metadata, Picture, WriteError, check_writable, write_exr, write_png};
 
-/// A file for the picture. The extension of its name chooses the format.
+/// An output file. The extension of its name selects the format.
 pub struct Output {
     pub path: PathBuf,
     pub format: Format,
@@ -19,8 +19,8 @@ pub enum Format {
 }
 
 impl Output {
-    /// The files named by the user, or NAME.png and NAME.exr for a scene NAME.toml. All are checked to be writable before
-    /// anything is rendered.
+    /// The files given on the command line, or NAME.png and NAME.exr for a scene NAME.toml. Checks that all of them can
+    /// be written, before anything is rendered.
     pub fn all(named: &[PathBuf], scene: &Path) -> Result<Vec<Self>, Box<dyn Error>> {
         if !named.is_empty() {
             return named.iter().map(|path| Self::new(path.clone())).collect();

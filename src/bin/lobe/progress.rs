@@ -1,4 +1,4 @@
-//! [`Bar`]: how far a render is, on a terminal.
+//! [`Bar`]: progress of a render on the terminal.
 
 use std::fmt::Write;
 use std::sync::Arc;
@@ -9,14 +9,14 @@ use lobe::render::Progress;
 
 const TEMPLATE: &str = "{bar:32} {percent:>3} %  {rate}  {eta} left{msg}";
 
-/// A bar on stderr; nothing at all where that is no terminal.
+/// A progress bar on stderr. Hidden if stderr is not a terminal.
 pub struct Bar {
     bar: ProgressBar,
     rays: Arc<AtomicU64>,
 }
 
 impl Bar {
-    /// A bar for so many pixels.
+    /// A bar over this number of pixels.
     pub fn new(pixels: u64) -> Self {
         let rays = Arc::new(AtomicU64::new(0));
         let counted = Arc::clone(&rays);
@@ -30,10 +30,10 @@ impl Bar {
         Self { bar: ProgressBar::new(pixels).with_style(style), rays }
     }
 
-    /// Moves on. The bar itself sees to it that it is not drawn too often.
+    /// Shows this progress. The bar limits how often it is drawn.
     pub fn update(&self, progress: Progress) {
         self.rays.store(progress.rays, Ordering::Relaxed);
-        // Behind it a new pass begins.
+        // The number of pixels falls when a new pass begins.
         if progress.pixels < self.bar.position() {
             self.bar.reset_eta();
             self.bar
@@ -42,7 +42,7 @@ impl Bar {
         self.bar.set_position(progress.pixels);
     }
 
-    /// Leaves the terminal as it was.
+    /// Removes the bar.
     pub fn clear(&self) {
         self.bar.finish_and_clear();
     }

@@ -1,4 +1,4 @@
-//! `lobe render`: from a scene file to PNG and EXR.
+//! `lobe render`: renders a scene file to PNG and EXR.
 
 use std::error::Error;
 use std::num::NonZeroUsize;
@@ -19,13 +19,13 @@ use crate::summary::Summary;
 
 const EXAMPLES: &str = r#"Examples:
   lobe render chapter8.toml                             writes chapter8.png and chapter8.exr here
-  lobe render chapter8.toml -o a.png --spp 256          writes a.png alone, with less noise
+  lobe render chapter8.toml -o a.png --spp 256          writes only a.png, with less noise
   lobe render dragon-sky.toml --time 10                 the best picture in ten seconds
   lobe render chapter8.toml --set film.resolution=[100,100] --set camera.fov=40
-  lobe render chapter8.toml --set 'shape.dragon.obj="other.obj"'    text keeps its quotes
+  lobe render chapter8.toml --set 'shape.dragon.obj="other.obj"'    strings need their quotes
 
-A PNG is for the eye. An EXR holds linear radiance with its variance and the number of
-samples, and normal, depth and albedo of what is seen."#;
+A PNG is for viewing. An EXR contains linear radiance, its variance, the number of samples, and
+normal, depth and albedo of the first hits."#;
 
 /// Renders a scene file to PNG and EXR
 #[derive(Args)]
@@ -38,12 +38,12 @@ pub struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
 
-    /// Samples per pixel, in place of the scene's; with --time, the most that are taken
+    /// Samples per pixel, in place of the scene's; with --time, their maximum
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
     spp: Option<u32>,
 
-    /// Renders in passes, each as long as all before it, for as long as the next one will end in time. Sobol
-    /// samples ("sobol") make the most of it, whenever it ends
+    /// Time limit. Renders in passes, each as long as all before it together, while the next one is expected to
+    /// end in time. Sobol samples ("sobol") are best for this, since they are well distributed after every pass
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time: Option<Duration>,
 
@@ -51,11 +51,11 @@ pub struct Arguments {
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
 
-    /// How many threads, up to 1024 [default: all that the machine has]; the picture stays the same
+    /// Number of threads, up to 1024 [default: one per processor]; the picture does not depend on it
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
 
-    /// An EXR of the radiance alone, which saves a tenth of the time
+    /// Leaves out normal, depth and albedo from the EXR, which saves a tenth of the time
     #[arg(long)]
     no_layers: bool,
 

@@ -1,4 +1,4 @@
-//! The arguments that say which scene, shared by all subcommands.
+//! Arguments that select a scene, shared by all subcommands.
 
 use std::path::PathBuf;
 
@@ -11,8 +11,8 @@ pub struct SceneArguments {
     #[arg(value_name = "SCENE")]
     pub path: PathBuf,
 
-    /// Sets a value of the scene, in TOML, whether the file has it or not; may be repeated. An OBJ
-    /// file that it names is looked for from the current directory
+    /// Sets a value of the scene, in TOML, whether the file has the key or not; may be repeated. Paths in it
+    /// are relative to the current directory
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! [`Summary`]: what a command has to tell, in lines of a key and a value.
+//! [`Summary`]: the output of a command, one key and value per line.
 
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -6,8 +6,7 @@ use std::io::{self, Write};
 use lobe::image::Window;
 use lobe::scene::{FilmSettings, Scene};
 
-/// Lines for people and programs alike: a key without blanks, then the value, then its unit if it
-/// has one. Keys may come more than once.
+/// Lines for people and programs alike: a key without blanks, then the value, then its unit if any. Keys may repeat.
 #[derive(Default)]
 pub struct Summary(Vec<(&'static str, String)>);
 
@@ -17,7 +16,7 @@ impl Summary {
         self.0.push((key, value.to_string()));
     }
 
-    /// Adds the size of the image, and of the part of it that is rendered.
+    /// Adds the size of the image, and its crop.
     pub fn add_film(&mut self, film: &FilmSettings) {
         self.add("image", format!("{}x{} pixels", film.resolution.x, film.resolution.y));
         if let Some(Window { min, max }) = film.crop {
@@ -25,7 +24,7 @@ impl Summary {
         }
     }
 
-    /// Adds the number of triangles, and what is odd about them.
+    /// Adds the number of triangles, and of those without area.
     pub fn add_meshes(&mut self, scene: &Scene) {
         let triangles = scene.shapes().map(|(_, mesh)| mesh.indices.len()).sum::<usize>();
         self.add("triangles", triangles);
@@ -35,8 +34,7 @@ impl Summary {
         }
     }
 
-    /// Prints all lines, with the values in one column. A reader that has gone away wants no more of
-    /// them, and that is no error.
+    /// Prints all lines, with the values aligned. A closed pipe is no error: the reader has seen enough.
     pub fn print(&self) -> io::Result<()> {
         let width = self.0.iter().map(|(key, _)| key.len()).max().unwrap_or(0);
         let lines = self.0.iter().map(|(key, value)| format!("{key:width$}  {value}\n"));

@@ -1,4 +1,4 @@
-//! [`Wave`]: the samples that go through an integrator together, and the buffers of one worker.
+//! [`Wave`]: the samples that an integrator processes together, and the buffers of one worker thread.
 
 use glam::{Vec2, Vec3};
 
@@ -14,32 +14,33 @@ use crate::sampling::{SampleId, Sampler};
 use crate::scene::{Scene, View};
 use crate::spectrum::Spectrum;
 
-/// A batch of camera samples, and the buffers that one worker reuses for each batch. Element i of ids, rays, hits and radiance belongs to the same sample.
+/// A batch of camera samples, and the buffers that one worker reuses for each batch. Element i of `ids`, `rays`,
+/// `hits` and `radiance` belongs to the same sample.
 #[derive(Default)]
 pub struct Wave {
-    /// Pixel and index.
+    /// Pixel and sample index.
     pub ids: Vec<SampleId>,
-    /// Sample values for the points of pixel and lens.
+    /// Sample values for the filter and the lens.
     film: Vec<Vec2>,
     lens: Vec<Vec2>,
-    /// Rays from the camera.
+    /// Camera rays.
     pub rays: Vec<Ray>,
-    /// Their hits.
+    /// Closest hits of the camera rays.
     pub hits: Vec<Hit>,
-    /// The radiance that arrives along them.
+    /// Radiance along the camera rays.
     pub radiance: Vec<Spectrum>,
-    /// Rays towards lights.
+    /// Buffer for shadow rays.
     pub shadow: ShadowRays,
-    /// Paths under way.
+    /// Path states.
     pub(crate) paths: Paths,
-    /// Memory for lobes.
+    /// Memory for lobes of other crates.
     pub arena: Arena,
-    /// What was done so far.
+    /// Rays traced and errors counted so far.
     pub counters: Counters,
 }
 
 impl Wave {
-    /// A wave with room for `samples` samples, and for `shadow_rays` rays towards lights from each.
+    /// A wave with capacity for `samples` samples, and for `shadow_rays` shadow rays each.
     pub fn with_capacity(samples: usize, shadow_rays: usize) -> Self {
         Self {
             ids: Vec::with_capacity(samples),
@@ -69,14 +70,14 @@ impl Wave {
         radiance.resize(rays.len(), Spectrum::BLACK);
         for (ray, radiance) in rays.iter_mut().zip(&mut *radiance) {
             if !camera::prepare(ray) {
-                // Hits nothing; and whatever is added to NaN, the film leaves the sample out.
+                // A negative t_max hits nothing, and the film rejects NaN, whatever is added to it.
                 *ray = Ray { t_max: -1.0, ..Ray::new(Vec3::ZERO, Vec3::Z) };
                 *radiance = Spectrum::splat(f32::NAN);
                 counters.refused_camera_rays += 1;
             }
         }
         counters.camera_rays += rays.len() as u64;
-        // Old hits are overwritten.
+        // The previous contents are overwritten.
         hits.resize(rays.len(), Hit::MISS);
         scene.accel().intersect(rays, hits);
     }

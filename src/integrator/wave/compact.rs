@@ -1,4 +1,4 @@
-//! Compaction: values of four lanes of which some are left out.
+//! Compaction: pushing those of four lanes that a mask selects.
 
 /// Pushes the values whose bits in the mask are set.
 ///

@@ -1,18 +1,19 @@
-//! [`Counters`]: what a render did.
+//! [`Counters`]: rays and errors of a render.
 
-/// What a render did.
+/// Numbers of rays traced and of errors in a render.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Counters {
-    /// Rays from the camera.
+    /// Camera rays.
     pub camera_rays: u64,
-    /// Rays towards lights.
+    /// Shadow rays.
     pub shadow_rays: u64,
-    /// Rays that were scattered at a surface.
+    /// Rays scattered at surfaces.
     pub scattered_rays: u64,
-    /// Lobe answers that were rejected: see [`Bsdf::rejected`](crate::bxdf::Bsdf::rejected).
+    /// Invalid lobe results: see [`Bsdf::rejected`](crate::bxdf::Bsdf::rejected).
     pub rejected: u64,
     /// Camera rays that could not be traced: see [`Camera`](crate::camera::Camera). Their samples are left out of the
-    /// picture and counted among those that are not finite, too.
+    /// picture and are also counted as non-finite.
     pub refused_camera_rays: u64,
 }
 

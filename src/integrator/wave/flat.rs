@@ -12,30 +12,30 @@ use crate::scene::Scene;
 use crate::shape::triangle_normals;
 use crate::spectrum::Spectrum;
 
-/// How many hits are processed together, so that their data stay in the first-level cache.
+/// Number of hits processed together, so that their data stay in the first-level cache.
 pub const BLOCK: usize = 64;
 
-/// What is fetched from memory for a block of hits, as a structure of arrays.
+/// Data of a block of hits, gathered from memory as a structure of arrays.
 pub struct Fetched {
     /// Indexed by corner, then axis.
     corners: [[[f32; BLOCK]; 3]; 3],
     weights: [[f32; BLOCK]; 3],
     d: [[f32; BLOCK]; 3],
-    /// Value of the lobe.
+    /// Lobe value.
     f: [Spectrum; BLOCK],
 }
 
 impl Fetched {
-    /// An empty block.
+    /// A block of zeros.
     pub fn new() -> Self {
         let rows = [[0.0; BLOCK]; 3];
         Self { corners: [rows; 3], weights: rows, d: rows, f: [Spectrum::BLACK; BLOCK] }
     }
 
-    /// Fetches the i-th hit of a block.
+    /// Gathers the data of a hit at index `i`.
     ///
     /// # Panics
-    /// If it is of another kind.
+    /// If the hit is not flat Lambertian.
     #[inline(always)]
     pub fn set(&mut self, i: usize, scene: &Scene, ray: &Ray, hit: &Hit) {
         let lobe = scene.flat_lambertian(hit).expect("the caller sorts hits by kind");
@@ -63,7 +63,7 @@ fn get(rows: &[[f32; BLOCK]; 3], four: usize) -> Vec3x4 {
     Vec3x4 { x, y, z }
 }
 
-/// Four hits.
+/// Four hits on flat Lambertian surfaces.
 ///
 /// All results come from the same operations in the same order as those of [`SurfaceInteraction`] and
 /// [`Bsdf`], so both give the same bits.
@@ -81,7 +81,7 @@ pub struct FlatHits<'a> {
 }
 
 impl<'a> FlatHits<'a> {
-    /// The hits number 4 `four` to 4 `four` + 3 of a block, which belong to these paths.
+    /// Hits 4 `four` to 4 `four` + 3 of a block, with the paths that they belong to.
     #[inline(always)]
     pub fn new(fetched: &Fetched, four: usize, paths: [&'a Path; 4]) -> Self {
         let corners = three(|corner| get(&fetched.corners[corner], four));
@@ -100,7 +100,7 @@ impl<'a> FlatHits<'a> {
         (!(above ^ wo_above) & self.wo_n.cmpne(Vec4::ZERO), wi_n)
     }
 
-    /// Density of the lobe's directions, by their cosines with the normals.
+    /// Density over solid angle of directions sampled from the lobe, by their cosines with the normals.
     #[inline(always)]
     pub fn pdf(&self, wi_n: Vec4) -> Vec4 {
         let zero = Vec4::ZERO;
@@ -115,9 +115,9 @@ impl<'a> FlatHits<'a> {
         four(|i| self.paths[i].beta * self.f[i])
     }
 
-    /// Samples the next directions. Bit i of the mask tells whether path i goes on.
+    /// Samples the next directions. Bit i of the mask is set if path i continues.
     #[inline(always)]
-    pub fn step(&self, u: [Vec2; 4]) -> (u32, [Path; 4], Vec3x4) {
+    pub fn sample_directions(&self, u: [Vec2; 4]) -> (u32, [Path; 4], Vec3x4) {
         let mut local = cosine_hemisphere::sample_x4(u);
         local.z = Vec4::select(self.wo_n.cmplt(Vec4::ZERO), -local.z, local.z);
         let pdf = self.pdf(local.z);

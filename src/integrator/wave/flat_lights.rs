@@ -11,10 +11,10 @@ use crate::light::{LightSamplesX4, one_by_one};
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 
-/// Light samples with what their weights need.
+/// Light samples for four hits, with what weighting them needs.
 pub struct LightSamples {
     samples: LightSamplesX4,
-    /// Whether they are weighed by multiple importance sampling.
+    /// Whether multiple importance sampling weights them.
     weighed: BVec4A,
 }
 
@@ -23,22 +23,22 @@ impl LightSamples {
     #[inline(always)]
     pub fn new(rules: &PathRules, light: usize, mut samples: LightSamplesX4) -> Self {
         samples.pdf *= rules.lights.probability(light);
-        let weighed = if rules.weighs(light) { BVec4A::TRUE } else { BVec4A::FALSE };
+        let weighed = if rules.uses_mis(light) { BVec4A::TRUE } else { BVec4A::FALSE };
         Self { samples, weighed }
     }
 
-    /// A sample for each of the points `p`, of the light with this index, by this sample value.
+    /// A sample for each of the points `p`, from the light and the sample value in `drawn`.
     pub fn of_any(rules: &PathRules, scene: &Scene, p: Vec3x4, drawn: [(usize, Vec2); 4]) -> Self {
         let mut samples = one_by_one(p, |i, p| {
             let (light, u) = drawn[i];
             scene.lights()[light].sample_li(p, u)
         });
         samples.pdf *= Vec4::from_array(four(|i| rules.lights.probability(drawn[i].0)));
-        Self { samples, weighed: BVec4A::from_array(four(|i| rules.weighs(drawn[i].0))) }
+        Self { samples, weighed: BVec4A::from_array(four(|i| rules.uses_mis(drawn[i].0))) }
     }
 
-    /// Shadow rays and the radiance that each carries; bit i of the mask tells whether hit i has one. `None`
-    /// if there are none.
+    /// Shadow rays and the radiance that each carries. Bit i of the mask is set if hit i has one. `None` if no hit
+    /// has one.
     #[inline(always)]
     pub fn reflected(&self, hits: &FlatHits) -> Option<(u32, [Ray; 4], [Spectrum; 4])> {
         let LightSamplesX4 { exists, ref li, wi, pdf, from, is_near } = self.samples;

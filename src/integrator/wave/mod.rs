@@ -1,5 +1,4 @@
-//! What the stages of an integrator work on: waves of samples, the paths that start with them, and the stages
-//! that several integrators share.
+//! Buffers and shared stages of integrators: waves of samples, and the paths that start with them.
 
 mod buffers;
 mod compact;

@@ -15,17 +15,16 @@ pub struct Path {
     pub beta: Spectrum,
     /// The surface point that its ray leaves, before the origin was offset. Not used for camera rays.
     pub p: Vec3,
-    /// Density over solid angle of the ray's direction; infinite from the camera and from delta lobes.
+    /// Density over solid angle of the ray's direction; infinite for camera rays and delta events.
     pub pdf: f32,
-    /// Product of η² over all boundaries crossed. Radiance is scaled by 1/η² there; Russian roulette
-    /// undoes that, since the factor says nothing about what the path will find.
+    /// Product of η² over all interfaces crossed. Refraction scales radiance by 1/η². Russian roulette undoes
+    /// this, since the factor is undone when the path leaves the medium again.
     pub eta_scale: f32,
     /// Index of its sample in the wave.
     pub sample: u32,
 }
 
-/// Sample values of the active paths, one buffer for each use. A buffer that a scene has no use for stays
-/// empty.
+/// Sample values of the active paths, one buffer per use. Buffers that a scene does not need stay empty.
 #[derive(Default)]
 pub struct Values {
     pub ids: Vec<SampleId>,
@@ -39,12 +38,12 @@ pub struct Values {
 /// states are `first`, and rays and hits are those of the wave.
 #[derive(Default)]
 pub struct Paths {
-    /// The states of camera paths, which are the same in all waves.
+    /// Initial states of camera paths, the same in all waves.
     pub first: Vec<Path>,
     pub states: Vec<Path>,
     pub rays: Vec<Ray>,
     pub hits: Vec<Hit>,
-    pub met: Met,
+    pub by_hit: PathsByHit,
     pub values: Values,
     /// `states` and `rays` at the next depth.
     pub next_states: Vec<Path>,
@@ -59,7 +58,7 @@ impl Paths {
             states: Vec::with_capacity(paths + 1),
             rays: Vec::with_capacity(paths),
             hits: Vec::with_capacity(paths),
-            met: Met {
+            by_hit: PathsByHit {
                 active: Vec::with_capacity(paths),
                 flat: 0,
                 others: Vec::with_capacity(paths),
@@ -95,7 +94,7 @@ impl Paths {
         std::mem::swap(&mut self.rays, &mut self.next_rays);
         self.next_states.clear();
         self.next_rays.clear();
-        // Old hits are overwritten.
+        // The previous contents are overwritten.
         self.hits.resize(self.rays.len(), Hit::MISS);
         scene.accel().intersect(&self.rays, &mut self.hits);
         self.rays.len() as u64
@@ -104,19 +103,19 @@ impl Paths {
 
 /// Indices of paths, sorted by what their rays hit.
 #[derive(Default)]
-pub struct Met {
-    /// Those that hit a surface, flat Lambertian ones first: see [`Scene::flat_lambertian`].
+pub struct PathsByHit {
+    /// Paths whose rays hit a surface, flat Lambertian surfaces first: see [`Scene::flat_lambertian`].
     pub active: Vec<u32>,
-    /// How many of `active` are on flat Lambertian surfaces.
+    /// Number of elements of `active` that are on flat Lambertian surfaces.
     pub flat: usize,
-    /// Those that hit nothing.
+    /// Paths whose rays hit nothing.
     pub escaped: Vec<u32>,
-    /// Buffer for the others, while they are sorted.
+    /// Buffer for paths on all other surfaces during sorting.
     others: Vec<u32>,
 }
 
-impl Met {
-    /// Sorts the paths by what they hit.
+impl PathsByHit {
+    /// Sorts all paths by their hits.
     #[inline(never)]
     pub fn sort(&mut self, scene: &Scene, hits: &[Hit]) {
         let Self { active, others, escaped, .. } = self;
@@ -125,9 +124,9 @@ impl Met {
         // Branch-free: each index is written to both lists, and only one list grows. A branch would be
         // mispredicted often.
         let mut found = 0;
-        for ((place, hit), number) in hits.iter().enumerate().zip(0..) {
-            active[found] = number;
-            escaped[place - found] = number;
+        for (i, hit) in (0..).zip(hits) {
+            active[found] = i;
+            escaped[i as usize - found] = i;
             found += usize::from(hit.is_hit());
         }
         active.truncate(found);
@@ -136,11 +135,9 @@ impl Met {
         if !scene.is_flat_lambertian() {
             others.clear();
             others.extend(
-                active
-                    .iter()
-                    .filter(|&&place| scene.flat_lambertian(&hits[place as usize]).is_none()),
+                active.iter().filter(|&&i| scene.flat_lambertian(&hits[i as usize]).is_none()),
             );
-            active.retain(|&place| scene.flat_lambertian(&hits[place as usize]).is_some());
+            active.retain(|&i| scene.flat_lambertian(&hits[i as usize]).is_some());
             self.flat = active.len();
             active.extend_from_slice(others);
         }
@@ -148,8 +145,8 @@ impl Met {
 }
 
 impl Path {
-    /// Russian roulette: whether the path goes on, which weights its beta up (PBRT 3rd edition, section
-    /// 14.5.4). `u` in `[0, 1)`.
+    /// Russian roulette with `u` in `[0, 1)`: whether the path continues. If so, its beta is divided by the
+    /// probability of that (PBRT 3rd edition, section 14.5.4).
     #[inline]
     pub fn survives(&mut self, u: f32) -> bool {
         let survival = (self.beta * self.eta_scale).max_component().min(1.0);

@@ -1,7 +1,7 @@
 //! [`PathRules`]: which stages paths need at each depth, and how they sample lights.
 //!
-//! A stage that a scene has no use for is left out: without emissive surfaces hits are not searched for them,
-//! with a single light none is chosen, and where no light is left to be found no direction is sampled.
+//! Stages that a scene does not need are skipped: without emissive surfaces, hits are not tested for emission;
+//! with a single light, none is selected; and if no light can be hit, no direction is sampled.
 
 use glam::Vec3;
 
@@ -10,26 +10,26 @@ use crate::light::{LightChoice, LightHit, LightSampler, LightStrategy};
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 
-/// An integrator's settings, and what follows from them and the scene's lights.
+/// An integrator's settings, and what follows from them for the scene's lights.
 pub struct PathRules {
     pub max_depth: u32,
     roulette: bool,
-    /// Chooses the lights that are sampled at a hit.
+    /// Selects the lights that are sampled at a hit.
     pub lights: LightSampler,
-    /// Whether any sampled light has an extent, and so needs a 2D sample.
-    pub has_places: bool,
-    /// For each light: whether rays can hit it.
+    /// Whether any sampled light is not a delta light, and so needs a 2D sample value.
+    pub needs_light_u: bool,
+    /// Per light: whether rays can hit it.
     visible: Vec<bool>,
     /// Indices of the lights that surround the scene.
     pub infinite: Vec<usize>,
     /// Whether any surface emits light.
-    pub on_surfaces: bool,
-    /// Whether lights found by reflection count after non-delta events (all strategies but `Light`).
-    finds: bool,
+    pub has_area_lights: bool,
+    /// Whether light found by BSDF sampling counts (all strategies but `Light`; delta events always count).
+    counts_bsdf_samples: bool,
 }
 
 /// The depth at which Russian roulette starts (PBRT 3rd edition, section 14.5.4).
-const ROULETTE_FROM: u32 = 3;
+const FIRST_ROULETTE_DEPTH: u32 = 3;
 
 impl PathRules {
     pub fn new(
@@ -51,62 +51,62 @@ impl PathRules {
         Self {
             max_depth,
             roulette,
-            has_places: sampled.iter().any(|&i| !lights[i].is_delta()),
+            needs_light_u: sampled.iter().any(|&i| !lights[i].is_delta()),
             lights: LightSampler::new(lights, sampled, choice, &scene.bounding_sphere()),
             visible,
-            on_surfaces: scene.lights_on_surfaces().next().is_some(),
+            has_area_lights: scene.lights_on_surfaces().next().is_some(),
             infinite: (0..lights.len()).filter(|&i| lights[i].is_infinite()).collect(),
-            finds: strategy != LightStrategy::Light,
+            counts_bsdf_samples: strategy != LightStrategy::Light,
         }
     }
 
     /// Whether the scene has any light.
-    pub fn finds_light(&self) -> bool {
-        self.lights.slots() > 0 || self.on_surfaces || !self.infinite.is_empty()
+    pub fn has_lights(&self) -> bool {
+        self.lights.slots() > 0 || self.has_area_lights || !self.infinite.is_empty()
     }
 
-    /// Whether a ray that leaves a vertex of this depth can contribute anything.
+    /// Whether a ray that leaves a vertex of this depth can contribute.
     #[inline]
-    pub fn goes_on(&self, depth: u32) -> bool {
-        depth + 1 < self.max_depth || self.on_surfaces || !self.infinite.is_empty()
+    pub fn samples_direction(&self, depth: u32) -> bool {
+        depth + 1 < self.max_depth || self.has_area_lights || !self.infinite.is_empty()
     }
 
-    /// Whether Russian roulette is played at this depth. The last ray only looks for lights: ending it early
-    /// would save nothing.
+    /// Whether Russian roulette is applied at this depth. Not for the last ray, which only looks for lights: ending
+    /// it early would save nothing.
     #[inline]
-    pub fn throws(&self, depth: u32) -> bool {
-        self.roulette && depth >= ROULETTE_FROM && depth + 1 < self.max_depth
+    pub fn uses_roulette(&self, depth: u32) -> bool {
+        self.roulette && depth >= FIRST_ROULETTE_DEPTH && depth + 1 < self.max_depth
     }
 
-    /// Whether the closest hit of a ray that leaves a vertex of this depth is needed, not only whether there
-    /// is any.
+    /// Whether a ray that leaves a vertex of this depth needs its closest hit. Otherwise an occlusion test is
+    /// enough.
     #[inline]
-    pub fn walks_on(&self, depth: u32) -> bool {
-        depth + 1 < self.max_depth || self.on_surfaces
+    pub fn extends_path(&self, depth: u32) -> bool {
+        depth + 1 < self.max_depth || self.has_area_lights
     }
 
-    /// Whether samples of this light are weighed by multiple importance sampling.
+    /// Whether multiple importance sampling weights samples of this light.
     #[inline]
-    pub fn weighs(&self, light: usize) -> bool {
-        self.finds && self.visible[light]
+    pub fn uses_mis(&self, light: usize) -> bool {
+        self.counts_bsdf_samples && self.visible[light]
     }
 
     /// Weighted radiance of a path that leaves the scene from `origin` along `wi`.
     #[inline]
     pub fn escaped(&self, scene: &Scene, origin: Vec3, wi: Vec3, path: &Path) -> Spectrum {
         let at = LightHit::outside(origin, wi);
-        self.infinite.iter().map(|&number| self.found(scene, number, &at, path)).sum()
+        self.infinite.iter().map(|&light| self.emitted(scene, light, &at, path)).sum()
     }
 
-    /// Weighted radiance of a path that ends at a light.
+    /// Weighted radiance of a path that ends at the light with this index.
     #[inline]
-    pub fn found(&self, scene: &Scene, number: usize, at: &LightHit, path: &Path) -> Spectrum {
-        let light = &*scene.lights()[number];
-        let probability = self.lights.probability(number);
-        // Light sampling cannot find this path: it comes from the camera or from a delta lobe.
+    pub fn emitted(&self, scene: &Scene, index: usize, at: &LightHit, path: &Path) -> Spectrum {
+        let light = &*scene.lights()[index];
+        let probability = self.lights.probability(index);
+        // Light sampling cannot find paths from the camera or from delta events.
         let weight = if path.pdf == f32::INFINITY || probability == 0.0 {
             1.0
-        } else if self.finds {
+        } else if self.counts_bsdf_samples {
             power_heuristic(path.pdf, probability * light.pdf_li(at))
         } else {
             return Spectrum::BLACK;
@@ -115,11 +115,11 @@ impl PathRules {
     }
 }
 
-/// The power heuristic: the weight of a sample drawn with density `a` that another technique draws with
-/// density `b` (Veach 1997, section 9.2.4, with exponent 2).
+/// Power heuristic with exponent 2: weight of a sample drawn with density `a`, where another technique has the
+/// density `b` for it (Veach 1997, section 9.2.4).
 #[inline]
 pub fn power_heuristic(a: f32, b: f32) -> f32 {
-    // By the ratio: squares of densities overflow f32.
+    // As a ratio, since squares of densities overflow f32.
     let ratio = b / a;
     1.0 / (1.0 + ratio * ratio)
 }

@@ -1,4 +1,4 @@
-//! [`ShadowRays`]: rays towards lights.
+//! [`ShadowRays`]: rays from surfaces to lights.
 
 use super::compact::push_x4;
 use super::paths::Path;
@@ -6,7 +6,7 @@ use crate::geometry::Ray;
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 
-/// Rays towards lights, each with the radiance that it adds to a sample if it is not occluded.
+/// Shadow rays, each with the radiance that it adds to a sample if it is not occluded.
 #[derive(Default)]
 pub struct ShadowRays {
     rays: Vec<Ray>,
@@ -18,7 +18,7 @@ pub struct ShadowRays {
 impl ShadowRays {
     pub(super) fn with_capacity(rays: usize) -> Self {
         Self {
-            // `push_x4` pushes one element more for a moment.
+            // `push_x4` needs room for one more element.
             rays: Vec::with_capacity(rays + 1),
             samples: Vec::with_capacity(rays + 1),
             carried: Vec::with_capacity(rays + 1),
@@ -34,7 +34,7 @@ impl ShadowRays {
         self.carried.push(radiance);
     }
 
-    /// Adds those rays of four paths whose bits in the mask are set.
+    /// Adds the rays of those of four paths whose bits in the mask are set.
     #[inline(always)]
     pub(super) fn push_x4(
         &mut self,
@@ -48,7 +48,7 @@ impl ShadowRays {
         push_x4(&mut self.carried, mask, radiance);
     }
 
-    /// Traces all rays, adds the radiance of those that are not occluded, and returns their number.
+    /// Traces all rays, adds the radiance of those that are not occluded, and returns the number of rays.
     pub fn trace(&mut self, scene: &Scene, radiance: &mut [Spectrum]) -> u64 {
         self.occluded.resize(self.rays.len(), false);
         scene.accel().occluded(&self.rays, &mut self.occluded);

@@ -1,4 +1,4 @@
-//! [`Vertices`]: the stage that turns the hits of a wave into shadow rays and next rays.
+//! [`Vertices`]: the stage that samples shadow rays and next rays at the hits of a wave.
 
 use glam::{Vec2, Vec4};
 
@@ -17,8 +17,8 @@ use crate::sampling::Sampler;
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 
-/// The path vertices of a wave at one depth: the inputs and outputs of that stage. `turn` is the index of a
-/// vertex among the active paths, by which `values` are ordered.
+/// The path vertices of a wave at one depth, with the inputs and outputs of this stage. A `vertex` is an index
+/// into the active paths; `values` are in the same order.
 pub struct Vertices<'a> {
     pub rules: &'a PathRules,
     pub scene: &'a Scene,
@@ -33,49 +33,49 @@ pub struct Vertices<'a> {
 }
 
 impl Vertices<'_> {
-    /// The light that a vertex samples in this slot, and the sample value for a point on it.
+    /// Index of the light that a vertex samples in this slot, and the sample value for a point on it.
     #[inline]
-    pub fn drawn(&self, slot: usize, turn: usize) -> (usize, Vec2) {
+    pub fn choose_light(&self, slot: usize, vertex: usize) -> (usize, Vec2) {
         let Self { rules, values, .. } = self;
-        let choice = if rules.lights.draws() { values.choice[turn] } else { 0.0 };
-        (rules.lights.pick(slot, choice), self.place(slot, turn))
+        let choice = if rules.lights.draws() { values.choice[vertex] } else { 0.0 };
+        (rules.lights.pick(slot, choice), self.light_u(slot, vertex))
     }
 
     /// The sample value for a point on the light of this slot.
     #[inline]
-    fn place(&self, slot: usize, turn: usize) -> Vec2 {
+    fn light_u(&self, slot: usize, vertex: usize) -> Vec2 {
         let Self { rules, values, sampler, .. } = self;
-        if !rules.has_places {
+        if !rules.needs_light_u {
             Vec2::ZERO
         } else if slot == 0 {
-            values.light[turn]
+            values.light[vertex]
         } else {
-            sampler.get_2d(values.ids[turn], dimension::MORE_LIGHTS + slot as u32 - 1)
+            sampler.get_2d(values.ids[vertex], dimension::MORE_LIGHTS + slot as u32 - 1)
         }
     }
 
-    /// Samples lights and next rays for a block of flat Lambertian hits that starts at `turn`. Hits that are
-    /// not `sound` are left to the caller.
+    /// Samples lights and next rays for a block of flat Lambertian hits that starts at `vertex`. Hits that are not
+    /// `sound` are left to the caller.
     #[inline(always)]
-    pub fn scatter_flat(&mut self, turn: usize, block: &[FlatHits]) {
+    pub fn scatter_flat(&mut self, vertex: usize, block: &[FlatHits]) {
         for slot in 0..self.rules.lights.slots() {
-            self.sample_lights(slot, turn, block);
+            self.sample_lights(slot, vertex, block);
         }
-        if self.rules.goes_on(self.depth) {
+        if self.rules.samples_direction(self.depth) {
             for (i, hits) in block.iter().enumerate().filter(|(_, hits)| hits.sound) {
-                self.step(turn + 4 * i, hits);
+                self.sample_directions(vertex + 4 * i, hits);
             }
         }
     }
 
-    /// Pushes shadow rays to the light of a slot, or to the light that each hit has drawn.
+    /// Pushes shadow rays to the light of a slot, or to the light that each hit selects.
     #[inline(always)]
-    fn sample_lights(&mut self, slot: usize, turn: usize, block: &[FlatHits]) {
+    fn sample_lights(&mut self, slot: usize, vertex: usize, block: &[FlatHits]) {
         let Self { rules, scene, .. } = *self;
         if rules.lights.draws() {
             for (i, hits) in block.iter().enumerate().filter(|(_, hits)| hits.sound) {
-                let drawn = four(|lane| self.drawn(slot, turn + 4 * i + lane));
-                self.send(hits, &LightSamples::of_any(rules, scene, hits.at.p, drawn));
+                let drawn = four(|lane| self.choose_light(slot, vertex + 4 * i + lane));
+                self.push_shadow_rays(hits, &LightSamples::of_any(rules, scene, hits.at.p, drawn));
             }
             return;
         }
@@ -86,18 +86,18 @@ impl Vertices<'_> {
         let mut samples = [LightSamplesX4::NONE; FOURS];
         for (i, hits) in block.iter().enumerate() {
             points[i] = hits.at.p;
-            u[i] = four(|lane| self.place(slot, turn + 4 * i + lane));
+            u[i] = four(|lane| self.light_u(slot, vertex + 4 * i + lane));
         }
         let count = block.len();
         scene.lights()[light].sample_li_x4(&points[..count], &u[..count], &mut samples[..count]);
         for (hits, samples) in block.iter().zip(&samples).filter(|(hits, _)| hits.sound) {
-            self.send(hits, &LightSamples::new(rules, light, *samples));
+            self.push_shadow_rays(hits, &LightSamples::new(rules, light, *samples));
         }
     }
 
-    /// Pushes shadow rays for light samples that are reflected.
+    /// Pushes shadow rays for those light samples that the surfaces reflect.
     #[inline(always)]
-    fn send(&mut self, hits: &FlatHits, lights: &LightSamples) {
+    fn push_shadow_rays(&mut self, hits: &FlatHits, lights: &LightSamples) {
         if let Some((mask, rays, carried)) = lights.reflected(hits) {
             self.shadow.push_x4(mask, hits.paths, &rays, &carried);
         }
@@ -105,17 +105,17 @@ impl Vertices<'_> {
 
     /// Samples the next rays of four hits.
     #[inline(always)]
-    fn step(&mut self, turn: usize, hits: &FlatHits) {
+    fn sample_directions(&mut self, vertex: usize, hits: &FlatHits) {
         let Self { rules, scene, values, depth, .. } = *self;
-        let u = four(|i| values.direction[turn + i]);
-        let (mut mask, mut paths, wi) = hits.step(u);
-        if rules.throws(depth) {
+        let u = four(|i| values.direction[vertex + i]);
+        let (mut mask, mut paths, wi) = hits.sample_directions(u);
+        if rules.uses_roulette(depth) {
             for (i, path) in paths.iter_mut().enumerate() {
-                mask &= !(u32::from(!path.survives(values.roulette[turn + i])) << i);
+                mask &= !(u32::from(!path.survives(values.roulette[vertex + i])) << i);
             }
         }
         let rays = rays_x4(hits.at.ray_origins(hits.n, wi), wi, Vec4::INFINITY);
-        if rules.walks_on(depth) {
+        if rules.extends_path(depth) {
             push_x4(self.next_states, mask, &paths);
             push_x4(self.next_rays, mask, &rays);
             return;

@@ -10,7 +10,7 @@ use lobe::metrics::convergence::{Run, RunningMean};
 
 use super::plan::Plan;
 
-/// A folder with the plan, the runs so far, and mean pictures by name and count.
+/// A folder with the plan, the runs so far, and mean pictures by name and number of pictures.
 pub struct Folder {
     path: PathBuf,
 }

@@ -1,4 +1,4 @@
-//! [`Bench`]: renders what the plan asks for and the folder does not hold yet.
+//! [`Bench`]: renders those pictures of the plan that the folder does not have yet.
 
 use std::error::Error;
 
@@ -29,7 +29,7 @@ pub struct Bench<'a> {
     pub is_quiet: bool,
 }
 
-/// What the user asked for.
+/// Limits given on the command line.
 pub struct Limits {
     /// Numbers of samples per pixel; if empty, as many powers of two as the time allows.
     pub budgets: Vec<u32>,
@@ -40,7 +40,7 @@ pub struct Limits {
     pub fresh: bool,
 }
 
-/// The results.
+/// Results of a chart.
 pub struct Measured {
     pub reference: Reference,
     pub curves: Vec<Curve>,
@@ -55,7 +55,7 @@ const REFERENCE_SEEDS: u64 = 1_000_000;
 const CHECK_SEEDS: u64 = 2_000_000;
 
 impl<'a> Bench<'a> {
-    /// Renders what is missing, and evaluates all of it.
+    /// Renders the missing pictures, and evaluates all of them.
     pub fn measure(&mut self, limits: &Limits) -> Result<Measured, Box<dyn Error>> {
         let (costs, print) = self.try_out()?;
         let [reference, check] = self.truths();
@@ -242,7 +242,7 @@ impl<'a> Bench<'a> {
                         .run(spp, seed, reference)
                         .map_err(|error| format!("{}, {spp} samples: {error}", method.name()))?;
                     let name = self.mean_name(index);
-                    // The mean has one picture more than there are runs if an interruption came between both.
+                    // After an interruption between both writes, the mean has one picture more than there are runs.
                     if spp == plan.most() && u64::from(self.folder.count(&name)) == run_index {
                         let mut mean = self.folder.mean(&name)?;
                         self.folder.add(&name, &mut mean, &image)?;

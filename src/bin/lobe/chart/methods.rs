@@ -1,4 +1,4 @@
-//! The methods of a chart: all that a user could choose between, or a list from a file.
+//! The methods of a chart: the usual ones, or a list from a file.
 
 use std::error::Error;
 use std::fs;
@@ -18,8 +18,8 @@ use crate::scene::SceneArguments;
 /// A method: name and settings.
 pub type Named = (String, RenderSettings);
 
-/// Each sampler with the scene's integrator; and with Sobol points each other light strategy, and roulette switched.
-/// What the scene's integrator has no key for is left out.
+/// Each sampler with the scene's integrator; and Sobol points with each other light strategy, and with roulette switched
+/// on or off. Settings that the scene's integrator does not have are skipped.
 pub fn usual(scene: &SceneArguments) -> Result<Vec<Named>, SceneFileError> {
     let RenderSettings { sampler, integrator } = read_settings(&scene.path, &scene.overrides())?;
     let of_kind = |kind: SamplerKind| {
@@ -43,7 +43,7 @@ pub fn usual(scene: &SceneArguments) -> Result<Vec<Named>, SceneFileError> {
     Ok(all)
 }
 
-/// The scene's integrator with these overrides, but for those that it has no key for.
+/// The scene's integrator with these overrides, except for keys that it does not have.
 pub fn with_changes(
     scene: &SceneArguments,
     integrator: &Arc<dyn Integrator>,
@@ -60,7 +60,7 @@ pub fn with_changes(
     changed
 }
 
-/// Reads methods from a TOML file: a table `[methods]` in which each name has a list of settings as for `--set`.
+/// Reads methods from a TOML file: a table `[methods]`, in which each name has a list of overrides as for `--set`.
 pub fn read(path: &Path, scene: &SceneArguments) -> Result<Vec<Named>, Box<dyn Error>> {
     let shown = path.display();
     let text =

@@ -1,4 +1,4 @@
-//! `lobe chart`: error against time and samples, for all methods that could render a scene.
+//! `lobe chart`: error against time and samples, for all methods that can render a scene.
 
 mod folder;
 mod measure;
@@ -34,11 +34,11 @@ const EXAMPLES: &str = r#"Examples:
 A list of methods is a TOML file. Each method has a name and a list of settings as for --set:
   [methods]
   "sobol, one set" = ['sampler.type="sobol"', 'sampler.replicates=1']
-  "light alone" = ['sampler.type="sobol"', 'integrator.strategy="light"']
+  "light sampling only" = ['sampler.type="sobol"', 'integrator.strategy="light"']
 
-Errors are roots of relMSE, the mean of (a - b)² / (b² + 0.01), against a reference with other seeds. The
-reference's own error is subtracted and drawn as a floor. An interrupted chart is resumed with its plan; a
-finished one is only drawn again, after a short trial of each method. --fresh starts again."#;
+Errors are the square root of relMSE, the mean of (a - b)² / (b² + 0.01), against a reference with other seeds. The
+reference's own error is subtracted and drawn as a floor. An interrupted chart resumes with its plan. A finished
+chart is only drawn again, after a short trial of each method; --fresh starts again."#;
 
 /// Charts error against time and samples for each method to render a scene: SVG, CSV and an HTML page
 #[derive(Args)]
@@ -48,7 +48,7 @@ pub struct Arguments {
     #[command(flatten)]
     scene: Option<SceneArguments>,
 
-    /// Charts where methods fail numerically, in place of a scene: ray origins, edges, lights, sums and so on,
+    /// Charts numerical failures in place of a scene: ray origins, edges, lights, sums and so on, each with
     /// the common method beside ours. Exits with code 1 if ours exceeds a stored bound
     #[arg(long)]
     stability: bool,
@@ -65,15 +65,15 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     methods: Option<PathBuf>,
 
-    /// Approximate time for all of it, from which the largest number of samples follows
+    /// Approximate total time, which determines the largest number of samples
     #[arg(long, value_name = "SECONDS", default_value_t = 300.0, value_parser = seconds)]
     time: f64,
 
-    /// Numbers of samples per pixel, in place of as many powers of two as --time allows
+    /// Numbers of samples per pixel, in place of the powers of two that fit into --time
     #[arg(long, value_name = "N,...", value_delimiter = ',', value_parser = value_parser!(u32).range(1..1 << 24))]
     budgets: Vec<u32>,
 
-    /// Number of pictures with different seeds for each method and number of samples
+    /// Number of pictures with different seeds, for each method and number of samples
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = value_parser!(u32).range(2..=64))]
     seeds: u32,
 
@@ -81,15 +81,15 @@ pub struct Arguments {
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(8..1 << 27))]
     reference: Option<u32>,
 
-    /// A picture by another program, EXR or PFM, and the seconds that it took; may be repeated
+    /// A picture by another program, EXR or PFM, and its render time in seconds; may be repeated
     #[arg(long, value_name = "LABEL=IMAGE,SECONDS", value_parser = added)]
     add: Vec<Added>,
 
-    /// Starts again, whatever the folder holds
+    /// Discards earlier results in the folder
     #[arg(long)]
     fresh: bool,
 
-    /// How many threads, up to 1024 [default: all that the machine has]
+    /// Number of threads, up to 1024 [default: one per processor]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
 
@@ -98,7 +98,7 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// Another program's picture: the argument of --add.
+/// A picture of another program: the argument of --add.
 #[derive(Clone)]
 struct Added {
     label: String,
@@ -134,7 +134,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         name.push("-chart");
         name.into()
     });
-    // Arguments are checked before anything that takes time.
+    // Check all arguments before anything takes time.
     let named = match &arguments.methods {
         Some(path) => methods::read(path, file)?,
         None => methods::usual(file)?,

@@ -31,10 +31,10 @@ img{width:100%;image-rendering:pixelated;display:block}
 @media(prefers-color-scheme:dark){body{color:#e6e6e6;background:#0d1117}td,th{border-color:#30363d}}
 ";
 
-/// Columns and rows of the crop of the pictures that is shown.
+/// Columns and rows of the crop that is shown of each picture.
 const CROP: u32 = 96;
 
-/// The page. It refers to no other file.
+/// The page, which embeds everything it shows.
 pub fn html(
     bench: &Bench,
     study: &Study,
@@ -80,7 +80,7 @@ fn threads(bench: &Bench) -> usize {
     bench.options.threads.map_or_else(all, usize::from)
 }
 
-/// For each method a picture after the same time and its signed error, cropped to where the methods are worst.
+/// For each method, a picture after the same time and its signed error, cropped to where the methods are worst.
 fn pictures(page: &mut String, bench: &Bench, study: &Study) -> Result<(), Box<dyn Error>> {
     let reference = study.reference.image();
     let Some(time) = common_time(&study.curves) else { return Ok(()) };
@@ -106,7 +106,7 @@ fn pictures(page: &mut String, bench: &Bench, study: &Study) -> Result<(), Box<d
     let _ = writeln!(
         page,
         "<h2>The reference</h2>\n<img class=\"whole\" alt=\"The reference\" src=\"{}\">\n\
-         <h2>About {time:.2} s of each</h2>\n<p>A crop of {} × {} pixels from column {} and row {}, where the methods are worst, and \
+         <h2>Each method after about {time:.2} s</h2>\n<p>A crop of {} × {} pixels from column {} and row {}, where the methods are worst, and \
          its error: blue is too dark, red too bright; the scale ends at {limit:.1e}. FLIP is for the whole picture.</p>\n\
          <div class=\"grid\">",
         data(reference.size, &display.codes(&reference.pixels))?,
@@ -146,14 +146,14 @@ fn figure(
     Ok(())
 }
 
-/// A rectangle that is cut out of the pictures.
+/// A rectangle of the pictures.
 struct Crop {
     at: UVec2,
     size: UVec2,
 }
 
 impl Crop {
-    /// Its part of a picture's codes.
+    /// This rectangle's part of a picture's codes.
     fn of(&self, codes: &[u8], size: UVec2) -> Vec<u8> {
         let row = |y: u32| {
             let start = 3 * ((self.at.y + y) * size.x + self.at.x) as usize;
@@ -185,8 +185,8 @@ fn worst(maps: &[ErrorMap], size: UVec2) -> Crop {
     Crop { at, size: part }
 }
 
-/// The geometric middle of the times that all curves cover; if there are none, the time of the fastest method with the
-/// most samples.
+/// Geometric mean of the ends of the time range that all curves cover; if there is none, the time of the fastest method
+/// with the largest number of samples.
 fn common_time(curves: &[Curve]) -> Option<f64> {
     let ends = |curve: &Curve| Some((curve.points.first()?.time(), curve.points.last()?.time()));
     let low = curves.iter().filter_map(ends).map(|(low, _)| low).fold(0.0, f64::max);
@@ -199,7 +199,7 @@ fn samples_in(curve: &Curve, time: f64) -> u32 {
     let (Some(first), Some(last)) = (curve.points.first(), curve.points.last()) else { return 1 };
     let more = f64::from(last.spp - first.spp);
     let each = (last.time() - first.time()) / more;
-    // One point, or points of equal time, say nothing about the time per sample.
+    // A single point, or points of equal time, do not determine the time per sample.
     if more == 0.0 || each <= 0.0 {
         return first.spp;
     }

@@ -1,6 +1,6 @@
 //! [`Plan`]: the numbers of samples, of seeds, and of parts of the reference.
 
-/// Model of the seconds for a method's picture.
+/// Linear model of a method's time for a picture, in seconds.
 #[derive(Clone, Copy, Debug)]
 pub struct Cost {
     /// Independent of the number of samples.
@@ -21,7 +21,7 @@ impl Cost {
     }
 }
 
-/// What is rendered. An interrupted chart is resumed with the same plan.
+/// What a chart renders. An interrupted chart resumes with the same plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// Numbers of samples per pixel, rising.
@@ -37,7 +37,7 @@ pub struct Plan {
 impl Plan {
     /// Number of parts of the reference.
     pub const PARTS: u32 = 8;
-    /// Samples of each part by default, in multiples of the largest budget. The reference's squared error is then at most
+    /// Default samples of each part, as a multiple of the largest budget. The reference's squared error is then at most
     /// about 1/32 of the best method's.
     const PART_SPP: u32 = 4;
     /// Number of parts of the check, which have as many samples as the largest budget.
@@ -51,7 +51,7 @@ impl Plan {
         Self { budgets, seeds, part_spp, print }
     }
 
-    /// A plan with powers of two as budgets, as many as the time allows, but at least 1, 2 and 4.
+    /// A plan with as many powers of two as budgets as the time allows, at least 1, 2 and 4.
     pub fn for_time(
         seconds: f64,
         methods: &[Cost],
@@ -68,7 +68,7 @@ impl Plan {
         self.budgets.last().copied().unwrap_or(1)
     }
 
-    /// Expected seconds for all of it.
+    /// Expected total time, in seconds.
     pub fn seconds(&self, methods: &[Cost], [reference, check]: [Cost; 2]) -> f64 {
         let runs = methods.iter().flat_map(|cost| self.budgets.iter().map(|&spp| cost.of(spp)));
         f64::from(self.seeds) * runs.sum::<f64>()
@@ -76,7 +76,7 @@ impl Plan {
             + f64::from(Self::CHECK_PARTS) * check.of(self.most())
     }
 
-    /// The plan as TOML, to be stored.
+    /// The plan as TOML, for its file.
     pub fn to_toml(&self) -> String {
         let Self { budgets, seeds, part_spp, print } = self;
         format!(

@@ -1,4 +1,4 @@
-//! `lobe chart --stability`: charts of where methods fail numerically.
+//! `lobe chart --stability`: charts of numerical failures.
 
 use std::error::Error;
 use std::fmt::Write;
@@ -13,10 +13,10 @@ use crate::stability::sweep::{Method, Sweep};
 use crate::stability::{ALL, all};
 use crate::summary::Summary;
 
-/// Measures all sweeps, and writes their charts, a table of all numbers and a page.
+/// Measures all sweeps, and writes a chart of each, a table of all numbers and a page.
 ///
 /// # Errors
-/// When the files cannot be written; or, after they are written, if ours exceeds a stored bound.
+/// If files cannot be written; or, after they are written, if ours exceeds a stored bound.
 pub fn run(folder: &Path, effort: f64, is_quiet: bool) -> Result<(), Box<dyn Error>> {
     let folder = Folder::open(folder)?;
     let steps = Steps::new(ALL.len() as f64, 0.0, is_quiet);
@@ -81,7 +81,7 @@ fn verdict(sweep: &Sweep) -> String {
 }
 
 fn chart(sweep: &Sweep) -> Chart {
-    // The style of ours in all charts.
+    // Ours has the same style in all charts.
     const OURS: usize = 2;
     let mut usual = [1, 0, 3, 4, 5].into_iter().cycle();
     let line = |method: &Method| Line {

@@ -4,11 +4,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 const TEMPLATE: &str = "{bar:24} {percent:>3} %  {eta} left  {msg}";
 
-/// A progress bar on stderr, measured in the seconds that the plan expects. Nothing is shown if stderr is not a terminal.
+/// A progress bar on stderr, in expected seconds. Hidden if stderr is not a terminal.
 pub struct Steps(Option<ProgressBar>);
 
 impl Steps {
-    /// A bar over `seconds`, of which `done` are done already.
+    /// A bar over `seconds`, of which `done` have passed.
     pub fn new(seconds: f64, done: f64, is_quiet: bool) -> Self {
         let style =
             ProgressStyle::with_template(TEMPLATE).unwrap_or_else(|_| ProgressStyle::default_bar());

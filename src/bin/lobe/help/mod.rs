@@ -1,4 +1,4 @@
-//! `lobe help`: of a command, or what scene files can hold.
+//! `lobe help`: help on a command, or a table of what scene files can contain.
 
 mod page;
 mod table;
@@ -10,10 +10,10 @@ use clap::Args;
 use lobe::params::hint;
 use lobe::scene_file::SECTIONS;
 
-/// The topic that is the page of the scene format.
+/// The topic for the page of the scene format.
 const PAGE: &str = "scene-format";
 
-/// Explains a command, or lists what scene files can hold
+/// Explains a command, or lists what scene files can contain
 #[derive(Args)]
 #[command(after_help = topics())]
 pub struct Arguments {
@@ -21,19 +21,19 @@ pub struct Arguments {
     topic: Option<String>,
 }
 
-/// What there is to ask for, beside commands.
+/// All topics, other than commands.
 pub fn topics() -> String {
     let topic = |name: &str, meaning: String| format!("  {name:<13} {meaning}\n");
     let kinds = |section: &&dyn lobe::params::AnySection| {
         let names: Vec<_> = section.kinds().iter().map(|kind| kind.name).collect();
         topic(section.plural(), names.join(", "))
     };
-    let page = topic(PAGE, "all of them and how files are read, as Markdown".into());
+    let page = topic(PAGE, "all of these, and how scene files are read, as Markdown".into());
     let list: String = SECTIONS.iter().map(kinds).chain([page]).collect();
-    format!("Topics of `lobe help`, from the registries of what scene files can hold:\n{list}")
+    format!("Topics of `lobe help`, on what scene files can contain:\n{list}")
 }
 
-/// `program` is the whole command line.
+/// Prints the topic. `program` is the whole command line.
 pub fn run(arguments: &Arguments, program: clap::Command) -> Result<(), Box<dyn Error>> {
     let topic = match arguments.topic.as_deref() {
         None => return command_help(program, &[]),
@@ -54,7 +54,7 @@ pub fn run(arguments: &Arguments, program: clap::Command) -> Result<(), Box<dyn 
     unless_closed(std::io::stdout().write_all(text.as_bytes()))
 }
 
-/// What `--help` prints.
+/// Prints the same as `--help`.
 fn command_help(program: clap::Command, command: &[&str]) -> Result<(), Box<dyn Error>> {
     let arguments = ["lobe"].into_iter().chain(command.iter().copied()).chain(["--help"]);
     match program.try_get_matches_from(arguments) {
@@ -63,7 +63,7 @@ fn command_help(program: clap::Command, command: &[&str]) -> Result<(), Box<dyn 
     }
 }
 
-/// Whoever closes a pipe has read enough.
+/// A closed pipe is no error: the reader has seen enough.
 fn unless_closed(result: io::Result<()>) -> Result<(), Box<dyn Error>> {
     match result {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),

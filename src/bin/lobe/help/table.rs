@@ -2,10 +2,10 @@
 
 use lobe::params::{AnyKey, AnySection};
 
-/// Widest line, in characters.
+/// Maximum length of a line, in characters.
 const WIDTH: usize = 100;
 
-/// What the kinds of a section are called, what they are, and their keys.
+/// Names and descriptions of the kinds of a section, with their keys.
 pub fn table(section: &dyn AnySection) -> String {
     let name = if section.is_named() { ".NAME" } else { "" };
     let selector = section.selector();
@@ -39,17 +39,17 @@ fn lines(key: &dyn AnyKey) -> String {
     format!("    {:<15}{}", key.name(), wrapped.trim_start())
 }
 
-/// A phrase with a capital letter.
+/// The phrase with a capital first letter.
 pub fn sentence(phrase: &str) -> String {
     let mut letters = phrase.chars();
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// A text as lines that begin with `indent` spaces.
+/// Wraps a text to lines indented by `indent` spaces.
 fn wrapped(text: &str, indent: usize) -> String {
     let mut lines = vec![String::new()];
     for word in text.split(' ') {
-        let line = lines.last_mut().expect("there is one from the beginning");
+        let line = lines.last_mut().expect("it starts with one line");
         if !line.is_empty() && indent + line.chars().count() + 1 + word.chars().count() > WIDTH {
             lines.push(word.into());
         } else {

@@ -8,7 +8,7 @@ use lobe::glam::{DVec3, Vec3};
 use super::sweep::Sweep;
 use super::tally::{measured, trials, worse};
 
-/// Normals from +z to -z.
+/// Normals close to -z.
 pub fn near_minus_z(effort: f64) -> Sweep {
     let parameters: Vec<f64> = (-27..=0).map(|k| 2.0 * 10.0_f64.powf(0.5 * f64::from(k))).collect();
     let around = trials(20_000, effort, 200);
@@ -19,8 +19,8 @@ pub fn near_minus_z(effort: f64) -> Sweep {
     ];
     let methods = measured(&parameters, named, |_, above| {
         let mut worst = [0.0; 3];
-        for turn in 0..around {
-            let n = normal(above, f64::from(turn) / f64::from(around));
+        for i in 0..around {
+            let n = normal(above, f64::from(i) / f64::from(around));
             let Frame { s, t, .. } = Frame::from_normal(n);
             for (worst, [s, t]) in worst.iter_mut().zip([frisvad(n), hughes_moeller(n), [s, t]]) {
                 *worst = worse(*worst, skew([s, t, n].map(Vec3::as_dvec3)));
@@ -48,9 +48,9 @@ pub fn near_minus_z(effort: f64) -> Sweep {
     }
 }
 
-/// The unit vector with 1 + n.z = `above`, at the azimuth of `turn` full turns.
-fn normal(above: f64, turn: f64) -> Vec3 {
-    let (sin, cos) = (TAU * turn).sin_cos();
+/// The unit vector with 1 + n.z = `above`, at the azimuth of `turns` full turns.
+fn normal(above: f64, turns: f64) -> Vec3 {
+    let (sin, cos) = (TAU * turns).sin_cos();
     let across = (above * (2.0 - above)).max(0.0).sqrt();
     DVec3::new(across * cos, across * sin, above - 1.0).as_vec3()
 }

@@ -73,14 +73,14 @@ pub fn centre(_effort: f64) -> Sweep {
     });
     Sweep {
         name: "disks-centre",
-        title: "Error of the chance to meet a small disk around the middle, by its radius",
-        about: "Random numbers of 24 bits, all of them counted. The chance of points within a radius ρ should be \
-                ρ². The polar map r = √u, φ = 2πv has no points between 0 and a radius of 2^-12, and all that fall \
-                into this hole lie on one point. Truth is ρ² in f64."
+        title: "Error of the probability of a small disk around the centre, by its radius",
+        about: "Random numbers of 24 bits, all of them counted. The probability of points within a radius ρ should be \
+                ρ². The polar map r = √u, φ = 2πv has no points between 0 and a radius of 2^-12, and maps all that fall \
+                into this hole to one point. Truth is ρ² in f64."
             .to_owned(),
         parameter: "radius of the small disk",
         log_parameter: true,
-        measure: "relative error of its chance",
+        measure: "relative error of its probability",
         methods,
         fails_from: 0.5,
         // Half of the float spacing 2⁻²³ at its border.
@@ -139,7 +139,7 @@ pub fn half_planes(effort: f64) -> Sweep {
         measure: "root mean square error of the share",
         methods,
         fails_from: 0.1,
-        // 9/8 of what ours had; the polar map exceeds most of them.
+        // 9/8 of the errors measured for ours; the polar map exceeds most of them.
         bounds: vec![1.64e-1, 5.7e-2, 1.97e-2, 7.1e-3, 2.47e-3, 8.8e-4, 3.09e-4, 1.08e-4],
         parameters,
     }

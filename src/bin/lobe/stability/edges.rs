@@ -14,7 +14,7 @@ use super::usual_triangle::moeller_trumbore;
 
 /// Squares along each edge of the cube that is deformed to the mesh.
 const SIDE: i32 = 6;
-/// Radius of a ball that is inside the mesh, whose vertices are at a radius of 0.9 to 1.1, for certain.
+/// Radius of a ball inside the mesh, whose vertices are at radii from 0.9 to 1.1.
 const INNER: f64 = 0.6;
 /// The tolerance printed by Möller and Trumbore.
 const EPSILON: f32 = 1e-6;
@@ -80,8 +80,8 @@ fn sweep(parameters: Vec<f64>, effort: f64, placement: impl Fn(f64) -> Placement
         title: "",
         about: format!(
             "Rays from outside of a closed, bumpy mesh of {} triangles, aimed at vertices and points of shared \
-             edges. A ray fails if it hits nothing before it is closest to the mesh's centre. Truth: only rays count \
-             that, in f64 from the f32 ray, go through a ball that the mesh encloses for certain. {rays} \
+             edges. A ray fails if it hits nothing before its closest approach to the mesh's centre. Truth: only rays count \
+             that, in f64 from the f32 ray, go through a ball inside the mesh. {rays} \
              rays for each point. The common test is Möller and Trumbore's of 1997, over all triangles, without a \
              tolerance on the determinant and with the printed one.",
             12 * SIDE * SIDE
@@ -96,7 +96,7 @@ fn sweep(parameters: Vec<f64>, effort: f64, placement: impl Fn(f64) -> Placement
     }
 }
 
-/// Number of rays, of `rays`, that find no surface, by method.
+/// Number of rays, of `rays`, that miss the surface, by method.
 fn leaks(placement: &Placement, rng: &mut Rng, rays: u32) -> [u32; 3] {
     let center = placement.scale * placement.offset * rng.direction();
     let mesh = bumpy(rng, |v| (center + placement.scale * v).as_vec3());
@@ -122,8 +122,8 @@ fn leaks(placement: &Placement, rng: &mut Rng, rays: u32) -> [u32; 3] {
     leaks
 }
 
-/// A ray at a random edge or vertex, and the t at which it is closest to the centre; `None` if it is not certain to hit
-/// the surface before that.
+/// A ray at a random edge or vertex, and the t of its closest approach to the centre; `None` unless it has to hit the
+/// surface before that.
 fn aim(
     placement: &Placement,
     center: DVec3,

@@ -1,9 +1,9 @@
 //! Where numerical methods fail: common ones from the literature, and this crate's, on the same axes.
 //!
-//! Each [`Sweep`] measures one question at 8 to 30 values of a parameter. The common methods are written here in f32, as
+//! Each [`Sweep`] answers one question at 8 to 30 values of a parameter. The common methods are written here in f32, as
 //! their sources print them; ours are the crate's public functions, called as a user would. The truth is a closed form, or
-//! computed in f64 from the f32 inputs. Random numbers are the measurement's own, so that the same effort gives the same
-//! figures.
+//! computed in f64 from the f32 inputs. Random numbers come from a generator of its own ([`rng`]), so that the same effort
+//! gives the same figures on every platform.
 
 mod bases;
 mod disks;
@@ -24,7 +24,7 @@ use sweep::Sweep;
 /// Measures a sweep; the argument is the factor on the number of trials.
 pub type Measure = fn(f64) -> Sweep;
 
-/// The names of the sweeps, in order, and what measures them.
+/// The names of the sweeps, in order, and the functions that measure them.
 pub const ALL: [(&str, Measure); 22] = [
     ("ray-origins-scale", ray_origins::self_hits_by_scale),
     ("ray-origins-distance", ray_origins::self_hits_by_distance),
@@ -50,7 +50,7 @@ pub const ALL: [(&str, Measure); 22] = [
     ("extremes-near-zero", extremes::near_zero),
 ];
 
-/// All sweeps, with `effort` times the usual number of trials; `begins` is told the name of each one before it is
+/// All sweeps, with `effort` times the usual number of trials. Calls `begins` with the name of each before it is
 /// measured.
 pub fn all(effort: f64, begins: &mut dyn FnMut(&str)) -> Vec<Sweep> {
     let measured = ALL.iter().map(|(name, measure)| {

@@ -66,7 +66,7 @@ fn solid_angle([a, b, c]: [DVec3; 3], [ex, ey]: [DVec3; 2]) -> f64 {
     2.0 * above.atan2(below)
 }
 
-/// Stored bounds: twice what ours had.
+/// Stored bounds: twice the errors measured for ours.
 const SAMPLES: [f64; 21] = [
     1.7e-2, 6.4e-3, 1.6e-3, 6.1e-4, 1.9e-4, 5.6e-5, 1.5e-5, 5.7e-6, 2.0e-6, 8.4e-7, 1.1e-6, 4.4e-7,
     4.4e-7, 3.8e-7, 3.9e-7, 4.4e-7, 3.5e-7, 4.0e-7, 3.8e-7, 3.6e-7, 4.6e-7,
@@ -90,7 +90,7 @@ pub fn solid_angles(effort: f64) -> Sweep {
     }
 }
 
-/// Solid angles by `AreaLight`: the inverse of its density, as far as it samples by solid angle.
+/// Solid angles by `AreaLight`: the inverse of its density, in the range where it samples by solid angle.
 pub fn solid_angles_of_lamps(effort: f64) -> Sweep {
     let ours = |View { eye, corner, edges: [ex, ey] }: &View| {
         let mesh = TriangleMesh::parallelogram(*corner, *ex, *ey);
@@ -106,7 +106,7 @@ pub fn solid_angles_of_lamps(effort: f64) -> Sweep {
     let mut sweep = Sweep {
         name: "rectangles-lamp",
         title: "Error of the solid angle behind a lamp's density, by the eye's distance",
-        // It uses f32 in the middle of the range. Twice what it had.
+        // It uses f32 in the middle of the range. Twice the errors measured.
         bounds: parameters
             .iter()
             .map(|&distance| match distance {
@@ -117,7 +117,7 @@ pub fn solid_angles_of_lamps(effort: f64) -> Sweep {
             .collect(),
         ..solid_angles_of("AreaLight (ours)", ours, parameters, effort)
     };
-    sweep.about += " A lamp of the crate finds it in f32 from 0.05 sr on, and in f64 down to 1e-6 sr, where this \
+    sweep.about += " `AreaLight` computes it in f32 from 0.05 sr on, and in f64 down to 1e-6 sr, where this chart \
                     ends.";
     sweep
 }

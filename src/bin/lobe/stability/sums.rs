@@ -9,7 +9,7 @@ use super::rng::Rng;
 use super::sweep::{Method, Sweep};
 use super::tally::{half_decades, measured, relative_error};
 
-/// Samples that are added at a time.
+/// Number of samples added together.
 const BLOCK: usize = 1000;
 /// Samples of [`means`] are integers over this.
 const UNITS: f64 = (1 << 27) as f64;
@@ -98,7 +98,7 @@ pub fn variances(effort: f64) -> Sweep {
         name: "sums-variance",
         title: "Error of a pixel's variance, by how little its samples differ",
         about: format!(
-            "{n} samples around a mean of 1000, spread evenly over ±√3 deviations and rounded to f32. Truth is the \
+            "{n} samples around a mean of 1000, distributed evenly over ±√3 deviations and rounded to f32. Truth is the \
              variance of the rounded samples by sums of integers of 128 bits. Common methods: the difference of the mean \
              square and the squared mean, and Welford 1962 in f32. Ours is a film's variance of the mean, times n, \
              after Youngs and Cramer 1971 in f64. The difference in f64 fails too, from 300,000 on."
@@ -119,7 +119,7 @@ fn samples(rng: &mut Rng, ratio: f64, n: u32) -> Vec<f32> {
     (0..n).map(|_| (1000.0 + half_width * (2.0 * rng.unit() - 1.0)) as f32).collect()
 }
 
-/// The exact variance, in integers: samples are multiples of 2⁻³⁰.
+/// The exact variance, in integers: all samples are multiples of 2⁻³⁰.
 fn exact_variance(samples: &[f32]) -> f64 {
     let unit = 2.0_f64.powi(-30);
     let whole = |x: &f32| (f64::from(*x) / unit).round() as i128;

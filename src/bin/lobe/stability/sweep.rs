@@ -1,6 +1,6 @@
-//! [`Sweep`]: one question, measured over a parameter.
+//! [`Sweep`]: one question, measured at several values of a parameter.
 
-/// One question: how often, or by how much, methods fail as a parameter changes.
+/// One question: how often, or by how much, methods fail as a parameter varies.
 pub struct Sweep {
     /// File name without extension, such as "ray-origins-scale".
     pub name: &'static str,
@@ -19,9 +19,9 @@ pub struct Sweep {
     pub parameters: Vec<f64>,
     /// The results by method.
     pub methods: Vec<Method>,
-    /// A method fails from this result on.
+    /// A method counts as failed from this result on.
     pub fails_from: f64,
-    /// The stored bounds, one per parameter: ours must not exceed them. Infinite where nothing is promised.
+    /// Stored bounds, one per parameter, which ours must not exceed. Infinite where there is none.
     pub bounds: Vec<f64>,
 }
 
@@ -52,7 +52,7 @@ impl Sweep {
             .collect()
     }
 
-    /// Where ours exceeds its stored bound: (parameter, result, bound).
+    /// Parameters at which ours exceeds its stored bound: (parameter, result, bound).
     pub fn broken(&self) -> Vec<(f64, f64, f64)> {
         let mut broken = Vec::new();
         for method in self.methods.iter().filter(|method| method.is_ours) {

@@ -1,4 +1,4 @@
-//! Shared by all sweeps: numbers of trials, parameters, running on all processors, and errors.
+//! Shared by all sweeps: numbers of trials, parameters, parallel measurement, and errors.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -18,8 +18,8 @@ pub fn half_decades(first: i32, last: i32) -> Vec<f64> {
     values
 }
 
-/// Calls `measure` with each parameter and its index, on all processors, and collects the results by method. A method is
-/// given by its name and whether it is ours.
+/// Calls `measure` with the index and the value of each parameter, on all processors, and collects the results by
+/// method. A method is given by its name and whether it is ours.
 pub fn measured<const N: usize>(
     parameters: &[f64],
     named: [(&'static str, bool); N],
@@ -57,7 +57,7 @@ pub fn measured<const N: usize>(
     named.into_iter().enumerate().map(method).collect()
 }
 
-/// The larger error. NaN counts as an infinite error.
+/// The larger of two errors. NaN counts as infinite.
 pub fn worse(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.max(b) }
 }

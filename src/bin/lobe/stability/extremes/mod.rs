@@ -1,4 +1,4 @@
-//! Random numbers at 0 and just below 1: conversion from integers, and warps at these extremes.
+//! Random numbers at 0 and just below 1: conversion from integers, and warps of these values.
 
 mod ones;
 mod warps;
@@ -12,7 +12,7 @@ use super::sweep::{Method, Sweep};
 use super::tally::measured;
 use warps::{Sound, our_share, usual_share};
 
-/// k from 1 to 32: all near the ends, every other one between.
+/// k from 1 to 32: all values near the ends, every other one between.
 fn exponents() -> impl Iterator<Item = f64> {
     (1..=32).filter(|k| !(5..24).contains(k) || k % 2 == 0).map(f64::from)
 }
@@ -21,7 +21,7 @@ fn exponents() -> impl Iterator<Item = f64> {
 pub fn near_one(_effort: f64) -> Sweep {
     let parameters: Vec<f64> = exponents().collect();
     let usual = |k: f64| (1.0 - 2.0_f64.powf(-k)) as f32;
-    // Clamped as by the samplers.
+    // Clamped as in the samplers.
     let methods = fail(&parameters, usual, |k| usual(k).min(ONE_MINUS_EPSILON));
     Sweep {
         name: "extremes-near-one",

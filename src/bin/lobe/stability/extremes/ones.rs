@@ -8,11 +8,11 @@ use lobe::sampling::{
 use super::super::sweep::{Method, Sweep};
 use super::super::tally::half_decades;
 
-/// Probability of a 1 among many random numbers.
+/// Probability that a 1 is among many random numbers.
 pub fn ones(effort: f64) -> Sweep {
     let parameters = half_decades(4, 9);
     let most = (3e8 * effort).clamp(1e5, 3e8);
-    // Only the largest integers can be rounded to 1.
+    // Only integers close to the maximum can be rounded to 1.
     let ones = |integers: u64, one: f32| {
         let top = integers - (1 << 16)..integers;
         top.filter(|&bits| bits as f32 / one >= 1.0).count() as f64 / integers as f64
@@ -34,14 +34,14 @@ pub fn ones(effort: f64) -> Sweep {
     ];
     Sweep {
         name: "extremes-ones",
-        title: "Chance of a 1 among random numbers below 1, by how many are drawn",
-        about: "Integers become f32 and are divided by their range. Of the largest 2^16 integers all are tried, and \
-                the chance follows in closed form: rounding makes 1 of one in 2^25. Ours are numbers that the \
-                crate's four samplers really gave, in turns of 1000: 1 if one of them is 1, and 0 if none is."
+        title: "Probability of a 1 among random numbers below 1, by how many are drawn",
+        about: "Integers become f32 and are divided by their range. The largest 2^16 integers are all tried, and the \
+                probability follows in closed form: one in 2^25 is rounded to 1. Ours are numbers from the crate's four \
+                samplers, in turns of 1000: 1 if one of them is 1, and 0 if none is."
             .to_owned(),
         parameter: "numbers drawn",
         log_parameter: true,
-        measure: "chance that one of them is 1",
+        measure: "probability that one of them is 1",
         methods,
         fails_from: 1e-3,
         bounds: vec![0.0; parameters.len()],

@@ -12,17 +12,17 @@ use super::tally::{half_decades, measured, trials};
 use estimate::{SAMPLES, errors};
 use setting::{CORNER, EDGES, Setting};
 
-/// Stored bounds: 1.5 times what ours had.
+/// Stored bounds: 1.5 times the errors measured for ours.
 const BY_DISTANCE: [f64; 15] = [
     1.1e-1, 1.2e-1, 1.1e-1, 1.0e-1, 7.5e-2, 4.1e-2, 1.2e-2, 1.9e-3, 1.6e-4, 2.1e-5, 1.7e-6, 1.8e-7,
     6.5e-8, 1.2e-7, 1.1e-7,
 ];
-/// Likewise.
+/// Stored bounds, as above.
 const BY_SIZE: [f64; 21] = [
     1.5e-7, 3.1e-7, 6.6e-7, 1.3e-6, 2.4e-6, 4.9e-6, 9.9e-6, 2.2e-5, 4.0e-5, 7.7e-5, 1.8e-4, 8.3e-5,
     1.6e-4, 3.6e-4, 6.1e-4, 1.3e-3, 2.6e-3, 5.0e-3, 1.1e-2, 2.0e-2, 3.8e-2,
 ];
-/// Likewise.
+/// Stored bounds, as above.
 const BY_HEIGHT: [f64; 13] = [
     5.2e-2, 5.2e-2, 5.2e-2, 5.6e-2, 5.3e-2, 5.4e-2, 5.5e-2, 5.7e-2, 5.7e-2, 7.5e-2, 9.7e-2, 1.1e-1,
     1.2e-1,
@@ -36,7 +36,7 @@ pub fn by_distance(effort: f64) -> Sweep {
     });
     sweep.name = "lights-distance";
     sweep.bounds = BY_DISTANCE.to_vec();
-    sweep.title = "Error of a lamp's light, by its distance";
+    sweep.title = "Error of a lamp's irradiance, by its distance";
     sweep.parameter = "distance of the lamp (its size)";
     sweep.about = format!("A point in front of a square lamp that faces it. {}", sweep.about);
     sweep
@@ -56,10 +56,10 @@ pub fn by_size(effort: f64) -> Sweep {
     });
     sweep.name = "lights-size";
     sweep.bounds = BY_SIZE.to_vec();
-    sweep.title = "Error of a lamp's light, by its size";
+    sweep.title = "Error of a lamp's irradiance, by its size";
     sweep.parameter = "width of the lamp (3 units, at a distance of 3.3 units)";
     sweep.about = format!(
-        "A point that sees a square lamp of shrinking size aslant. Below 1e-6 sr ours draws points by area, which \
+        "A point that sees a square lamp of shrinking size at an angle. Below 1e-6 sr ours samples points by area, which \
          does not fail here. {}",
         sweep.about
     );
@@ -76,7 +76,7 @@ pub fn by_height(effort: f64) -> Sweep {
     });
     sweep.name = "lights-grazing";
     sweep.bounds = BY_HEIGHT.to_vec();
-    sweep.title = "Error of a lamp's light, by the height above its plane";
+    sweep.title = "Error of a lamp's irradiance, by the height above its plane";
     sweep.parameter = "height above the lamp's plane (its size)";
     sweep.about = format!(
         "A point beside a square lamp, a hundredth of its size from the middle of an edge, that faces it. {}",

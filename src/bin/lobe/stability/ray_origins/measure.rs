@@ -1,8 +1,8 @@
 //! Counts failures at one placement of the scene.
 //!
 //! **Trials** ([`super::scene`]): a triangle of random shape, and the three that continue it beyond its edges,
-//! exactly in its plane. A ray hits one of the four, and another leaves the hit to a random side along `w`; half of
-//! the directions are laid towards the surface, down to a sine of 1e-6. The coordinates are within twice the scale
+//! exactly in its plane. A ray hits one of the four, and another leaves the hit to a random side along `w`. Half of
+//! the directions are flattened towards the surface, down to a sine of 1e-6. The coordinates are within twice the scale
 //! of a centre at the given distance from the origin.
 //!
 //! **Failures**, each against a truth in f64 from the f32 numbers as they are:
@@ -31,7 +31,7 @@ const GRAZING: f64 = 1e-6;
 /// Distance of a contact, relative to the scale.
 const GAP: f64 = 1e-3;
 
-/// What is counted.
+/// The kind of failure to count.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Failure {
     /// A ray hits the surface that it leaves.
@@ -42,8 +42,8 @@ pub enum Failure {
 
 /// Number of failures for each method and each of [`TESTS`], among `rays` rays whose truth is certain.
 ///
-/// `None` if eight times as many trials do not give enough such rays: where the gap, or the triangle itself, is mostly lost
-/// in rounding.
+/// `None` if eight times as many trials do not give enough such rays: where the gap, or the triangle itself, is mostly
+/// below the spacing of floats.
 pub fn measure(failure: Failure, placement: Placement, rays: u32) -> Option<[[u32; 2]; 4]> {
     let mut counts = [[0; 2]; 4];
     let mut trials = 0;

@@ -12,7 +12,7 @@ use placement::Placement;
 use super::sweep::Sweep;
 use super::tally::{half_decades, measured, trials};
 
-/// Indices of the crate's triangle test and of the plain one in the counts.
+/// Indices of the crate's triangle test and of the common one in the counts.
 const CRATES: usize = 0;
 const PLAIN: usize = 1;
 

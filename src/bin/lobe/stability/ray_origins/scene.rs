@@ -27,7 +27,7 @@ pub struct Patch {
 }
 
 impl Patch {
-    /// A random patch; `None` if it has next to no area.
+    /// A random patch; `None` if its area is close to 0.
     ///
     /// All coordinates are multiples of one power of two with at most 24 bits. So they are exact floats, and the four
     /// triangles are exactly coplanar.
@@ -77,14 +77,14 @@ impl Patch {
 
     /// The point of the exact plane that is nearest to a computed hit point.
     ///
-    /// The exact ray starts here: the truth needs an origin in the plane, but no particular one.
+    /// The exact ray starts there: the truth needs an origin in the plane, but not a particular one.
     pub fn exact(&self, p: Vec3) -> DVec3 {
         let p = p.as_dvec3();
         p - (p - self.large[0]).dot(self.n) * self.n
     }
 
-    /// The large triangle, moved by `gap` along `n`, with its corners rounded to f32; `None` where the gap is
-    /// below the spacing of floats, or rounding has changed it by more than half.
+    /// The large triangle, moved by `gap` along `n`, with its corners rounded to f32; `None` if the gap is below the
+    /// spacing of floats, or if rounding has changed it by more than half.
     pub fn plate(&self, n: DVec3, gap: f64) -> Option<Plate> {
         if gap < self.unit {
             return None;

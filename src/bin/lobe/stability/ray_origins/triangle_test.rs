@@ -1,4 +1,4 @@
-//! The two triangle tests that rays are tested with.
+//! The two triangle tests of these sweeps.
 
 use lobe::geometry::Ray;
 use lobe::glam::Vec3;
