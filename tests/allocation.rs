@@ -1,5 +1,5 @@
-//! Nothing is allocated while samples are rendered: a worker's memory is taken when it starts, and the
-//! arena for foreign lobes stops growing once it has met the hit that needs most.
+//! Rendering allocates no memory: a worker allocates its buffers when it starts, and the arena for lobes of other
+//! crates stops growing after the hit that needs most.
 
 mod scenes;
 
@@ -20,25 +20,25 @@ use lobe::sampling::SamplerKind;
 use lobe::{FilmSettings, PointLight, RenderOptions, RenderSettings, Spectrum, View, render};
 use scenes::{any, ball_over_floor, chapter_camera};
 
-/// The system's allocator, counting.
+/// The system's allocator, which counts its calls.
 struct Counting;
 
 static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
 
-// SAFETY: every call is passed on to the system's allocator as it is.
+// SAFETY: every call is forwarded to the system's allocator unchanged.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         ALLOCATIONS.fetch_add(1, Ordering::SeqCst);
-        // SAFETY: as promised to this function.
+        // SAFETY: the caller keeps the contract of this function.
         unsafe { System.alloc(layout) }
     }
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: as promised to this function.
+        // SAFETY: the caller keeps the contract of this function.
         unsafe { System.dealloc(pointer, layout) }
     }
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         ALLOCATIONS.fetch_add(1, Ordering::SeqCst);
-        // SAFETY: as promised to this function.
+        // SAFETY: the caller keeps the contract of this function.
         unsafe { System.realloc(pointer, layout, size) }
     }
 }
@@ -46,7 +46,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-/// A lobe that is none of the crate's, so it has to be kept in the arena.
+/// A lobe defined outside the crate, which has to be stored in the arena.
 #[derive(Clone, Copy)]
 struct Foreign;
 
@@ -70,10 +70,10 @@ impl Material for ForeignMaterial {
     }
 }
 
-/// How many allocations happen between the end of tile 30, by when every kind of hit has been met, and
-/// the end of the last.
+/// Counts allocations between the end of tile 30, by which every kind of hit has occurred, and the end of the last
+/// tile.
 ///
-/// One test for all cases, since the count is the whole process's. Seen to fail with a box around each
+/// All cases are in one test, since the counter is global to the process. Seen to fail with a box around each
 /// hit's material call, and with a new `Wave` for each tile.
 #[test]
 fn rendering_allocates_nothing_after_set_up() {
@@ -96,14 +96,14 @@ fn rendering_allocates_nothing_after_set_up() {
             .light(SkyLight::new(Spectrum::splat(0.1)))
             .build()
             .unwrap();
-        // (tiles done, allocations by then), the first and the latest.
+        // (tiles done, allocations so far), after tile 30 and after the latest tile.
         let seen = Mutex::new([(0, 0); 2]);
         let progress = |_| {
             let count = ALLOCATIONS.load(Ordering::SeqCst);
             let mut seen = seen.lock().unwrap();
             let tiles = seen[1].0 + 1;
             seen[1] = (tiles, count);
-            // The arena grows when the first foreign lobe is met, some tiles into the picture.
+            // The arena grows at the first lobe of another crate, some tiles into the picture.
             if tiles == 30 {
                 seen[0] = (tiles, count);
             }

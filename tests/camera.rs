@@ -1,5 +1,4 @@
-//! Cameras and views: where rays go, which kind of space the world is, and that a stranger's camera cannot go wrong
-//! in silence.
+//! Cameras and views: where rays go, the handedness of world space, and that errors of custom cameras are reported.
 
 mod scenes;
 
@@ -37,7 +36,7 @@ fn equirectangular(settings: EquirectangularSettings, resolution: UVec2) -> Equi
     EquirectangularCamera::new(&settings, resolution).unwrap()
 }
 
-/// Cameras of all kinds that stand askew, with and without lenses.
+/// Rotated cameras of all kinds, with and without lenses.
 fn cameras() -> [Arc<dyn Camera>; 5] {
     let (eye, look_at, up) = (Vec3::new(1.0, 2.0, -3.0), Vec3::new(0.2, -1.0, 4.0), Vec3::Y);
     let perspective = PerspectiveSettings { eye, look_at, up, fov: 40.0, ..Default::default() };
@@ -55,7 +54,7 @@ fn cameras() -> [Arc<dyn Camera>; 5] {
     ]
 }
 
-/// The block gives the bits of the scalar ray, for any number of rays. Seen to fail with the rays of a pair of fours
+/// `generate_rays` gives the bits of `generate_ray`, for any number of rays. Seen to fail with the rays of a pair of fours
 /// exchanged, and with the last rays of a block left out.
 #[test]
 fn blocks_of_rays_are_single_rays_to_the_bit() {
@@ -64,7 +63,7 @@ fn blocks_of_rays_are_single_rays_to_the_bit() {
         for count in 0..40_u32 {
             let u = |step: f32| move |i: u32| (0.5 + step * i as f32).fract();
             let (x, y) = (u(0.754_877_7), u(0.569_840_3));
-            // As a wide filter asks.
+            // Beyond the pixel, as with a wide filter.
             let offsets: Vec<_> = (0..count).map(|i| 4.0 * Vec2::new(x(i), y(i)) - 1.5).collect();
             let lens: Vec<_> = (0..count).map(|i| Vec2::new(y(i), x(i))).collect();
             let pixel = UVec2::new(count % RESOLUTION.x, count % RESOLUTION.y);
@@ -79,7 +78,7 @@ fn blocks_of_rays_are_single_rays_to_the_bit() {
     }
 }
 
-/// A lens changes rays, and only where there is one.
+/// A lens changes rays, and nothing else does.
 #[test]
 fn only_a_lens_uses_its_sample() {
     for camera in cameras() {
@@ -225,7 +224,7 @@ fn equirectangular_covers_the_sphere() {
     }
 }
 
-/// Ball, floor and a lamp at a side, in a world with z turned round or not.
+/// Ball, floor and a lamp at a side, in a world whose z axis is mirrored or not.
 fn world(mirrored: bool) -> SceneBuilder {
     let place = |p: Vec3| if mirrored { p * Vec3::new(1.0, 1.0, -1.0) } else { p };
     let placed = |mut mesh: TriangleMesh| {
@@ -270,7 +269,7 @@ fn cameras_at(eye: Vec3, look_at: Vec3, handedness: Handedness) -> [Arc<dyn Came
     ]
 }
 
-/// A right-handed world, which is a left-handed one with z turned round, looks right in a right-handed camera: the
+/// A right-handed world, which is a left-handed one with z mirrored, looks right through a right-handed camera: the
 /// same picture as that of the left-handed world. Seen to fail with up flipped along with right.
 #[test]
 fn a_mirrored_world_looks_the_same_in_the_other_hand() {
@@ -310,7 +309,7 @@ fn the_other_hand_mirrors_the_picture() {
     }
 }
 
-/// One scene in two views is what two scenes are.
+/// One scene rendered in two views gives the same as two scenes.
 #[test]
 fn one_scene_renders_many_views() {
     let render = |scene: &Scene, view: &View| {
@@ -325,7 +324,7 @@ fn one_scene_renders_many_views() {
     }
 }
 
-/// A camera that spoils the rays of another one.
+/// A camera that makes some rays of another one invalid.
 struct Spoiled<F>(PerspectiveCamera, F);
 
 impl<F: Fn(UVec2, &mut Ray) + Send + Sync> Camera for Spoiled<F> {
@@ -396,7 +395,7 @@ fn rays_that_are_none_are_refused_and_counted() {
     }
 }
 
-/// Directions of any length give what directions of unit length give, depth and range included. Seen to fail without
+/// Ray directions of any length give the same as unit directions, including depth and range. Seen to fail without
 /// the normalization, and with t_max left as it was.
 #[test]
 fn directions_need_no_unit_length() {
@@ -422,7 +421,7 @@ fn directions_need_no_unit_length() {
     }
 }
 
-/// What a view refuses, and what it says.
+/// Errors of views, with their messages.
 #[test]
 fn views_that_cannot_be() {
     let camera = || PerspectiveCamera::new(&chapter_camera(), UVec2::new(8, 6)).unwrap();
@@ -444,7 +443,7 @@ fn views_that_cannot_be() {
     assert!(View::new(camera(), film).is_ok());
 }
 
-/// What the kinds of cameras refuse.
+/// Errors of the camera kinds.
 #[test]
 fn cameras_that_cannot_be() {
     let flat = OrthographicSettings::default();

@@ -36,7 +36,7 @@ fn picture(
     rendered.unwrap().picture.color
 }
 
-/// Where the ray through the middle of a pixel meets the plane y = -2, by the definition of PBRT's
+/// Where the ray through the middle of a pixel hits the plane y = -2, by the definition of PBRT's
 /// camera in f64: x to the right of the image is up × view, and 90 degrees span the shorter side.
 fn on_floor(camera: &PerspectiveSettings, column: u32, row: u32) -> Option<(DVec3, DVec3)> {
     let [eye, look_at, up] = [camera.eye, camera.look_at, camera.up].map(DVec3::from);

@@ -1,7 +1,7 @@
-//! Curves of error: what is right falls, what is wrong flattens and is called biased.
+//! Curves of error: the error of a right method falls, that of a wrong one flattens and is reported as bias.
 //!
-//! The truth is the crate's own picture of a pyramid under the sky, by another estimator and other seeds than the methods
-//! have. Two methods are wrong on purpose: one cuts bright samples off, one divides by another density than it drew
+//! The truth is the crate's own picture of a pyramid under the sky, by another estimator and with other seeds than the
+//! methods have. Two methods are wrong on purpose: one clamps bright samples, one divides by another density than it sampled
 //! from.
 
 use std::sync::atomic::AtomicBool;
@@ -58,7 +58,7 @@ fn view() -> View {
     View::perspective(&camera, FilmSettings::new(SIZE.x, SIZE.y)).unwrap()
 }
 
-/// Draws the parts of a reference, from seeds that no method has.
+/// Renders the parts of a reference, from seeds that no method has.
 fn reference(scene: &Scene) -> Reference {
     let mut pool = RunningMean::default();
     for part in 0..u64::from(PARTS) {
@@ -76,7 +76,7 @@ fn reference(scene: &Scene) -> Reference {
     Reference::new(&pool, SIZE)
 }
 
-/// The right method, with an integrator of the test's in its place if there is one.
+/// The right method, or the same with an integrator of this test.
 fn method<'a>(scene: &'a Scene, name: &str, wrong: Option<&'a dyn Integrator>) -> Method<'a> {
     let right = DirectIntegrator::default();
     Method::new(name, scene.build_seconds(), move |spp, seed| {
@@ -87,7 +87,7 @@ fn method<'a>(scene: &'a Scene, name: &str, wrong: Option<&'a dyn Integrator>) -
     })
 }
 
-/// Cuts off what is brighter than it likes, against rare bright samples.
+/// Clamps bright samples, as is done against fireflies.
 struct Clamped(DirectIntegrator);
 
 impl Integrator for Clamped {
@@ -111,7 +111,7 @@ impl Estimator for ClampedEstimator<'_> {
     }
 }
 
-/// Draws directions evenly over the sphere, and divides by the density of the hemisphere's cosine.
+/// Samples directions uniformly over the sphere, but divides by the cosine-weighted density of the hemisphere.
 struct WrongPdf;
 
 impl Integrator for WrongPdf {
@@ -191,7 +191,7 @@ fn wrong_methods_flatten_and_are_called_biased() {
         let [before, last] = curve.points.last_chunk().unwrap();
         let (before, last) = (before.error.unwrap()[1], last.error.unwrap()[1]);
         assert!(bias.is_certain(), "{name}: {bias:?}");
-        // What is left of the error is bias, and twice the samples take little of it away.
+        // The remaining error is bias, which twice the samples hardly reduce.
         assert!(bias.error < last && last < 1.4 * bias.error, "{name}: {last}, {bias:?}");
         assert!(last > 0.8 * before, "{name}: {before}, {last}");
     }
@@ -203,7 +203,7 @@ fn wrong_methods_flatten_and_are_called_biased() {
     assert!(svg.contains("wrong pdf, biased by"), "{svg}");
 }
 
-/// Times and errors by hand: medians, quartiles, what the reference takes off, and Pareto's front.
+/// Times and errors by hand: medians, quartiles, the reference's own error subtracted, and the Pareto front.
 #[test]
 fn curves_are_those_by_hand() {
     let mut pool = RunningMean::default();
@@ -273,7 +273,7 @@ fn curves_are_those_by_hand() {
     assert!(study.error_by_time().svg().contains("other, &quot;one&quot;"));
 }
 
-/// A picture whose error lies in few pixels says so, and where.
+/// A picture whose error is concentrated in few pixels is reported, with the place.
 #[test]
 fn rare_samples_are_not_trusted() {
     let mut pool = RunningMean::default();
@@ -289,8 +289,8 @@ fn rare_samples_are_not_trusted() {
     assert!(*share > 0.9 && *worst == UVec2::new(34, 24), "{share} {worst}");
 }
 
-/// Pictures that miss what is rare and bright look biased, and must not be called so: one sample in 2000 has all the
-/// light of a pixel, and the pictures of 4 samples have mostly none. Seen to fail with the scatter of the pictures alone.
+/// Pictures that miss rare bright samples look biased, but must not be reported as such: one sample in 2000 has all the
+/// light of a pixel, and pictures of 4 samples mostly have none. Seen to fail with the scatter of the pictures alone.
 #[test]
 fn rare_samples_are_no_bias() {
     let picture = |seed: u64, samples: u64| -> Vec<Spectrum> {
@@ -315,7 +315,7 @@ fn rare_samples_are_no_bias() {
     assert_eq!(named, 0, "of 50 unbiased methods");
 }
 
-/// A picture that lacks samples is no run. Seen to fail with whatever the render returns taken for a picture.
+/// A picture without all of its samples is not accepted as a run. Seen to fail with whatever the render returns taken for a picture.
 #[test]
 fn a_cancelled_render_is_no_run() {
     let (scene, view) = (scene(), view());
@@ -329,7 +329,7 @@ fn a_cancelled_render_is_no_run() {
     assert_eq!(run(true), Err(RunError::Cancelled));
 }
 
-/// A pool that went through a file goes on as if it had not, up to f32.
+/// A running mean that is stored and loaded continues as if it had not been, up to f32.
 #[test]
 fn pools_go_on() {
     let picture = |n: u32| -> Vec<Spectrum> {

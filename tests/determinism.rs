@@ -1,4 +1,4 @@
-//! The picture is the same, bit by bit, however the work is cut and whoever does it.
+//! The picture is the same, bit by bit, for any threads, tiles and crop.
 
 mod scenes;
 
@@ -28,8 +28,7 @@ const SAMPLERS: [SamplerKind; 4] = [
 
 const RESOLUTION: UVec2 = UVec2::new(53, 37);
 
-/// Lights of all kinds. What is rendered uses all there is: also a lens, a wide filter, reflections, sets of samples,
-/// layers.
+/// Lights of all kinds. The render also uses a lens, a wide filter, reflections, sets of samples, and layers.
 fn scene() -> Scene {
     let lamp = TriangleMesh::parallelogram(Vec3::new(1.2, 1.5, -1.0), Vec3::X, Vec3::Z);
     ball_over_floor()
@@ -121,7 +120,7 @@ fn crop_is_a_part_of_the_whole() {
     }
 }
 
-/// Passes take the samples that one pass takes.
+/// Several passes together take the same samples as one pass.
 #[test]
 fn passes_add_up_to_one() {
     for kind in SAMPLERS {

@@ -19,7 +19,7 @@ const I: f64 = 50.0;
 const SIZE: u32 = 65;
 
 /// The radiance at the middle of each pixel of a plane y = 0 of half width 4, seen from above from
-/// (0, 3, 0) with a light at (1, 2, 0.5); everything `scale` times as large and then moved by `shift`.
+/// (0, 3, 0) with a light at (1, 2, 0.5). Everything is scaled by `scale` and then moved by `shift`.
 fn plane(scale: f32, shift: Vec3, blocker: Option<TriangleMesh>) -> Vec<Spectrum> {
     let place = |p: Vec3| p * scale + shift;
     let camera = PerspectiveSettings {
@@ -87,7 +87,7 @@ fn plane_under_a_point_light_is_the_closed_form() {
     assert!(error < 3e-6, "relative error {error}");
 }
 
-/// The same at other scales: nothing in the crate knows how large a unit is. Seen to fail with 1e-4
+/// The same at other scales: nothing in the crate depends on the unit of length. Seen to fail with 1e-4
 /// added to the squared distance.
 #[test]
 fn plane_under_a_point_light_keeps_its_look_at_any_scale() {
@@ -97,16 +97,16 @@ fn plane_under_a_point_light_keeps_its_look_at_any_scale() {
     }
 }
 
-/// Far from the origin, coordinates have fewer digits: at 10⁴, floats are 2⁻¹⁰ apart, which is what
-/// a distance of about 1 may be wrong by, and the closed form falls with its square.
+/// Far from the origin, coordinates have fewer digits. At 10⁴ floats are 2⁻¹⁰ apart, which may be the error of
+/// a distance of about 1, and the closed form falls with its square.
 #[test]
 fn plane_under_a_point_light_keeps_its_look_far_from_the_origin() {
     let error = largest_error(&plane(1.0, Vec3::new(1e4, -1e4, 1e4), None));
     assert!(error < 8.0 / 1024.0, "relative error {error}");
 }
 
-/// A strip between light and plane casts a shadow with straight edges: in it the plane is exactly
-/// black, outside it is the closed form, at any scale. Seen to fail with shadow rays that end halfway,
+/// A strip between light and plane casts a shadow with straight edges. Inside it the plane is exactly
+/// black, outside it follows the closed form, at any scale. Seen to fail with shadow rays that end halfway,
 /// and with ray origins moved by 1e-4.
 #[test]
 fn shadow_is_where_the_blocker_says() {
@@ -146,7 +146,7 @@ fn shadow_is_where_the_blocker_says() {
     }
 }
 
-/// Light is a sum: two lights together give what each gives alone. Seen to fail with the second light
+/// Light adds up: two lights together give the sum of both alone. Seen to fail with the second light
 /// left out.
 #[test]
 fn two_lights_add_up() {

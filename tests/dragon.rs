@@ -1,4 +1,4 @@
-//! The promises that `assets/dragon.obj` makes, checked on the file alone.
+//! Properties of `assets/dragon.obj`, checked on the file itself.
 //!
 //! Truth: a closed, oriented two-manifold has every directed edge once and its reverse once, and
 //! one fan of triangles at each vertex; the volume enclosed by triangles that look outwards is
@@ -39,7 +39,7 @@ fn read() -> Dragon {
     dragon
 }
 
-/// `7//7` as 6: a corner's position and normal share their number.
+/// `7//7` as 6: position and normal of a corner have the same index.
 fn corner(word: &str, line: usize) -> usize {
     let (v, vn) = word.split_once("//").unwrap_or_else(|| panic!("line {line}: `{word}`"));
     assert_eq!(v, vn, "line {line}: position and normal differ");

@@ -1,5 +1,5 @@
-//! The film's sums: means, their variance, and films that are put together from tiles and passes. Truth is a
-//! second pass over the samples in f64.
+//! The film's sums: means, their variance, and films merged from tiles and passes. Truth is a second pass over the
+//! samples in f64.
 
 use lobe::Spectrum;
 use lobe::film::{Film, FilmContents, Variance};
@@ -52,7 +52,7 @@ fn assert_near(found: f32, truth: f64, what: &str) {
     assert!(error <= 1e-6 * truth, "{what}: {found}, should be {truth}");
 }
 
-/// Samples with an offset that hides their spread from a difference of large numbers.
+/// Samples around a large offset, so that a difference of large numbers loses their variance.
 fn clouds() -> Vec<(String, Vec<(u32, Spectrum)>)> {
     let mut rng = Rng(1);
     let mut clouds = Vec::new();
@@ -116,7 +116,7 @@ fn assert_unbiased(truth: f64, mut trial: impl FnMut(&mut Rng) -> f32) {
     assert!((m - truth).abs() < 5.0 * error, "{m} ± {error}, should be {truth}");
 }
 
-/// Four numbers from [0, 1): the variance of their mean is 1/12/4. Caught: n for n - 1.
+/// Four uniform numbers: the variance of their mean is 1/12/4. Caught: n for n - 1.
 #[test]
 fn variance_of_samples_is_unbiased() {
     assert_unbiased(1.0 / 48.0, |rng| {
@@ -125,8 +125,8 @@ fn variance_of_samples_is_unbiased() {
     });
 }
 
-/// Sets whose samples repeat each other: set r has r + 2 equal ones with the variance 1/12/(r + 2), so the mean of
-/// all 9 has 1/12 / 9, a quarter of which samples taken for independent would not find.
+/// Correlated samples: set r has r + 2 equal samples with the variance 1/12/(r + 2), so the mean of all 9 samples has
+/// 1/12 / 9. An estimate for independent samples would give a quarter of it.
 /// Caught: the number of sets for one less; sets that weigh the same.
 #[test]
 fn variance_of_sets_is_unbiased_for_correlated_samples() {
@@ -142,7 +142,7 @@ fn variance_of_sets_is_unbiased_for_correlated_samples() {
     });
 }
 
-/// Exactly zero, not nearly.
+/// The variance of equal samples is exactly zero.
 #[test]
 fn equal_samples_have_no_variance() {
     for value in [0.1, 1e-30, 123.456, 1.1e6, 3e30] {
@@ -276,7 +276,7 @@ fn radiance_does_not_know_what_else_is_kept() {
     }
 }
 
-/// What a sample met first is kept whole or not at all, and counted. Seen to fail without the film's test of first hits,
+/// First hits are kept completely or not at all, and counted. Seen to fail without the film's test of first hits,
 /// and without each of its three parts.
 #[test]
 fn first_hits_that_are_none_are_counted() {

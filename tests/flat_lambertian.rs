@@ -1,4 +1,4 @@
-//! Plain hits, which are shaded four at a time, give the same bits as hits that are shaded one by one.
+//! Hits on flat Lambertian surfaces are shaded four at a time. They give the same bits as hits that are shaded one by one.
 
 mod scenes;
 
@@ -12,7 +12,7 @@ use lobe::scene::{Emission, SceneBuilder};
 use lobe::{MatteMaterial, PointLight, RenderOptions, Spectrum, TriangleMesh, render};
 use scenes::{any, ball_over_floor, chapter_view, independent};
 
-/// A matte surface that the scene cannot know for one.
+/// A matte surface that does not declare its constant lobe, so that its hits are shaded one by one.
 struct Disguised(MatteMaterial);
 
 impl Material for Disguised {
@@ -27,7 +27,7 @@ fn scene() -> SceneBuilder {
         .light(PointLight::new(Vec3::new(-5.0, 3.0, 1.0), Spectrum::new(0.0, 20.0, 40.0)))
 }
 
-/// With lights that rays can meet.
+/// The same with lights that rays can hit.
 fn lit_scene() -> SceneBuilder {
     let lamp = TriangleMesh::parallelogram(Vec3::new(1.2, 1.5, -1.0), Vec3::X * 2.0, Vec3::Z * 1.5);
     let emission = Emission { radiance: Spectrum::new(4.0, 4.0, 2.0), two_sided: true };
@@ -38,8 +38,8 @@ fn lit_scene() -> SceneBuilder {
         .light(sun)
 }
 
-/// Seen to fail with the sum of the lanes' dot product in another order, and when the choice of a light was not drawn
-/// where nothing else is.
+/// Seen to fail with the terms of the lanes' dot product added in another order, and without the sample value that
+/// selects a light at hits that need no other value.
 #[test]
 fn shading_four_hits_at_once_changes_no_bit() {
     let path = |max_depth, strategy| any(PathIntegrator { max_depth, roulette: true, strategy });
@@ -63,12 +63,12 @@ fn shading_four_hits_at_once_changes_no_bit() {
             };
             let red = || Disguised(MatteMaterial::new([0.8, 0.1, 0.2]));
             let blue = || Disguised(MatteMaterial::new([0.2, 0.3, 0.9]));
-            let plain = colors(scene());
-            assert!(plain.iter().any(|color| !color.is_black()));
+            let flat = colors(scene());
+            assert!(flat.iter().any(|color| !color.is_black()));
             let mixed = colors(scene().material("red", red()));
-            assert!(plain == mixed, "{integrator:?}: one of two materials disguised");
+            assert!(flat == mixed, "{integrator:?}: one of two materials disguised");
             let both = scene().material("red", red()).material("blue", blue());
-            assert!(plain == colors(both), "{integrator:?}: both materials disguised");
+            assert!(flat == colors(both), "{integrator:?}: both materials disguised");
         }
     }
 }

@@ -1,5 +1,5 @@
-//! Reading of pictures, and the inverse of the display curves. Files that the crate writes come back bit for bit.
-//! What it writes is compared with other programs in tests/output.rs.
+//! Reading pictures, and the inverse of the display curves. Files written by the crate are read back bit for bit.
+//! tests/output.rs compares them with other programs.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! Errors between images: by hand, by other programs' figures, and refused where they would mean nothing.
+//! Errors between images: computed by hand, compared with other programs, and refused where they would be meaningless.
 //! Each was seen to fail: by a constant of FLIP, infinite variances counted, encodings not compared, a scale from the largest pixel.
 
 use lobe::Spectrum;
@@ -14,11 +14,11 @@ fn image(size: UVec2, encoding: Encoding, pixel: impl Fn(u32, u32) -> [f32; 3]) 
 
 const SIZE: UVec2 = UVec2::new(48, 40);
 
-/// What flip-evaluator 1.7 says of the pattern and its shift by 5: `evaluate(reference, test, "LDR")` and `"HDR"`.
+/// Values of flip-evaluator 1.7 for the pattern and its shift by 5: `evaluate(reference, test, "LDR")` and `"HDR"`.
 const LDR: f64 = 0.42159;
 const HDR: f64 = 0.32725;
 
-/// A pattern that any program can make: (i · factor mod 256) / 255 for i = x + 48 y, a third of them shifted.
+/// A pattern that other programs can reproduce: (i · factor mod 256) / 255 for i = x + 48 y, a third of them shifted.
 fn pattern(shift: u32) -> impl Fn(u32, u32) -> [f32; 3] {
     move |x, y| {
         let i = x + 48 * y;
@@ -45,7 +45,7 @@ fn errors_are_those_by_hand() {
     close(errors.psnr(), 10.0 * (4.0 / errors.mse).log10());
 }
 
-/// Images that cannot be compared say why, and where.
+/// Images that cannot be compared give an error that says why, and where.
 #[test]
 fn what_cannot_be_compared_is_refused() {
     let good = image(SIZE, Encoding::Linear, pattern(0));
@@ -65,7 +65,7 @@ fn what_cannot_be_compared_is_refused() {
     assert!(flip(&odd, &good, Viewing::default()).is_err());
 }
 
-/// Equal images differ nowhere; the pattern's values are those of flip-evaluator 1.x, to 1e-3.
+/// Equal images have no error; the pattern's values are those of flip-evaluator 1.x, to 1e-3.
 #[test]
 fn flip_is_that_of_its_authors() {
     for (encoding, expected) in [(Encoding::Srgb, LDR), (Encoding::Linear, HDR)] {
@@ -98,7 +98,7 @@ fn noise_is_told_from_difference() {
     assert!((found.largest.0 - 20.0).abs() < 1e-3 && (4.0..5.5).contains(&found.limit));
 }
 
-/// Dark is zero, ends are told from the middle, and one pixel in a thousand does not decide on the scale.
+/// Zero is dark, the ends of the scale differ from the middle, and one pixel in a thousand does not set the scale.
 #[test]
 fn maps_show_where_images_differ() {
     let size = UVec2::new(100, 100);

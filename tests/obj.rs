@@ -1,4 +1,4 @@
-//! Reading OBJ: what loads, what is refused and with which words, and that nothing panics.
+//! Reading OBJ: valid files, error messages for invalid ones, and that nothing panics.
 //!
 //! The comment of a test says with which deliberate break of the code it was seen to fail.
 
@@ -167,8 +167,8 @@ impl Random {
     }
 }
 
-/// A file with these numbers of vertices, texture coordinates and normals, whose faces name all
-/// that there is and are written in all ways that plain tobj understands.
+/// A file with these numbers of vertices, texture coordinates and normals, whose faces use all of them, in all
+/// notations that tobj understands.
 fn any_obj(counts: [usize; 3], faces: usize, random: &mut Random) -> String {
     let mut text = String::new();
     for (key, numbers, count) in [("v", 3, counts[0]), ("vt", 2, counts[1]), ("vn", 3, counts[2])] {
@@ -236,7 +236,7 @@ fn every_corner_is_what_plain_tobj_reads() {
                 assert!(ours.normals[a].abs_diff_eq(theirs, 1e-6), "trial {trial}, corner {i}");
             }
         }
-        // As many vertices in use as there are different corners, and none but those of the file unused.
+        // As many vertices in use as there are different corners, and only the file's own unused.
         assert_eq!(distinct.len() * 3, theirs.positions.len(), "trial {trial}");
         assert_eq!(
             ours.positions.len() - distinct.len(),
@@ -438,7 +438,7 @@ fn mutated_files_never_panic() {
             .to_vec(),
         any_obj([5, 3, 2], 6, &mut Random(1)).into_bytes(),
     ];
-    // Bytes that mean something, more often than chance would have them.
+    // Bytes with a meaning in OBJ, more often than by chance.
     let telling = b"\n\r\\#/ -+.0123456789efvntaginINF\t\xE9\xEF\xBB\xBF\xFF\x00";
     seeds.iter().for_each(|seed| drop(parse(seed)));
     let mut loaded = 0;
@@ -472,7 +472,7 @@ fn mutated_files_never_panic() {
             Err(e) => assert!(e.to_string().starts_with("m.obj:"), "trial {trial}: {e}"),
         }
     }
-    // Neither always good nor always bad.
+    // Some inputs load, some do not.
     assert!((2_000..18_000).contains(&loaded), "{loaded} of 20000 loaded");
 }
 

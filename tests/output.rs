@@ -1,6 +1,6 @@
-//! Pictures on disk: everything that was written is read back, by the decoders of `png` and `exr` and by
-//! other programs where they are installed. With LOBE_REQUIRE_EXRHEADER=1 the tools of Debian's
-//! package `openexr` must be there; Python's OpenEXR and Pillow are used when python3 has them.
+//! Pictures on disk: everything that was written is read back, by the decoders of `png` and `exr`, and by
+//! other programs if they are installed. With LOBE_REQUIRE_EXRHEADER=1 the tools of Debian's
+//! package `openexr` are required; Python's OpenEXR and Pillow are used if python3 has them.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -17,7 +17,7 @@ use lobe::image::{
 
 const SOFTWARE: &str = concat!("lobe ", env!("CARGO_PKG_VERSION"));
 
-/// A folder that goes away at the end of the test.
+/// A folder that is removed at the end of the test.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -47,7 +47,7 @@ impl Drop for Folder {
     }
 }
 
-/// Values that a careless path through a file would change: both zeros, subnormals, the largest, ...
+/// Values that a careless conversion would change: both zeros, subnormals, the largest, ...
 const HARD: [f32; 10] =
     [0.0, -0.0, 1e-45, -1.1e-39, f32::MIN_POSITIVE, 1e30, f32::MAX, -1e30, f32::NAN, f32::INFINITY];
 
@@ -98,7 +98,7 @@ fn metadata() -> Metadata {
     }
 }
 
-/// What the EXR file should hold, by channel, as bits.
+/// The expected contents of the EXR file, by channel, as bits.
 fn channels(picture: &Picture) -> BTreeMap<String, Vec<u32>> {
     let mut expected = BTreeMap::<String, Vec<u32>>::new();
     let mut put_bits = |name: &str, bits: u32| {
@@ -151,7 +151,7 @@ fn codes(display: Display, picture: &Picture) -> Vec<u8> {
     picture.color.iter().flat_map(|p| p.to_array()).map(|band| code(display, band)).collect()
 }
 
-/// Every place where a code changes, found by bisection in the floats' order, stands where the f64
+/// Every float at which a code changes, found by bisection in the order of floats, is where the f64
 /// formula has it: the float there is on the upper side, the float below it on the lower side.
 /// Caught: steps not rounded up; `>` for `>=`; 0.05 for 0.04045; 4.00001 for 4.
 #[test]
@@ -213,7 +213,7 @@ struct Png {
     notes: BTreeMap<String, String>,
 }
 
-/// Reads a PNG with the decoder's checks on: a chunk whose CRC is wrong is as good as absent.
+/// Reads a PNG with the decoder's checks on: a chunk with a wrong CRC is ignored.
 fn read_png(path: &Path) -> Png {
     let file = std::io::BufReader::new(fs::File::open(path).unwrap());
     let mut reader = png::Decoder::new(file).read_info().unwrap();
@@ -459,7 +459,7 @@ fn a_picture_that_contradicts_itself_is_refused() {
     assert!(folder.names().is_empty());
 }
 
-/// It found the limit: with a side of i32::MAX / 2, exr refuses.
+/// exr refuses a side of i32::MAX / 2; the limit comes from there.
 #[test]
 fn the_last_pixel_of_the_largest_image_can_be_written() {
     let folder = Folder::new("largest");
@@ -474,7 +474,7 @@ fn the_last_pixel_of_the_largest_image_can_be_written() {
     assert_eq!(read_png(&path).codes, [255; 3]);
 }
 
-/// Whoever opens the file while it is replaced again and again finds a whole one.
+/// A reader that opens the file while it is replaced again and again always finds a whole one.
 /// Caught: the final name opened for writing.
 #[test]
 fn a_reader_never_sees_half_a_file() {
@@ -500,7 +500,7 @@ fn a_reader_never_sees_half_a_file() {
     assert_eq!(folder.names(), ["x.png"]);
 }
 
-/// What a killed process of the same number left behind is neither used nor removed.
+/// A temporary file left by a killed process with the same id is neither used nor removed.
 /// Caught: `File::create` for `create_new`.
 #[test]
 fn other_temporary_files_are_left_alone() {
@@ -531,7 +531,7 @@ fn links_and_permissions_are_kept() {
     assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
 }
 
-/// Names the file that the child below writes, when a test starts this program again.
+/// The environment variable with the file that the child below writes, when a test starts this program again.
 const CHILD: &str = "LOBE_OUTPUT_CHILD";
 
 /// Runs as a child whose files may hold one block of 512 bytes: the write fails halfway, as on a disk
@@ -570,8 +570,8 @@ fn a_failed_write_leaves_the_earlier_file_and_nothing_else() {
     assert_eq!(fs::read(&path).unwrap(), b"earlier");
 }
 
-/// What a program says, which may be absent: then `None`, after saying so, unless it is required.
-/// Whether it failed is told by stderr: exrinfo 3.1.5 exits with a variable that nothing sets.
+/// Runs a program and returns its output; `None`, with a note, if it is not installed, unless it is required.
+/// Failure is recognised by stderr: exrinfo 3.1.5 exits with an uninitialised variable.
 fn tool(name: &str, path: &Path) -> Option<String> {
     let required = std::env::var_os("LOBE_REQUIRE_EXRHEADER").is_some_and(|value| value == "1");
     match Command::new(name).arg(path).output() {
@@ -626,7 +626,7 @@ fn the_openexr_tools_read_the_same() {
     }
 }
 
-/// What a Python program with these modules says about a file, or `None`, after saying so.
+/// The output of a Python program that needs these modules, or `None`, with a note.
 fn python(modules: &str, program: &str, path: &Path) -> Option<String> {
     let run = |program: &str| Command::new("python3").args(["-c", program]).arg(path).output();
     match run(&format!("import {modules}")) {

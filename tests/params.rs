@@ -1,4 +1,4 @@
-//! The parameters' room with a registry of another crate: what a stranger can rely on.
+//! `params` with a registry of another crate.
 
 use lobe::Spectrum;
 use lobe::glam::Vec3;
@@ -7,7 +7,7 @@ use lobe::params::{
     Section, Table, Value,
 };
 
-/// A type that only the stranger knows.
+/// A parameter type of another crate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Weather {
     Sun,
@@ -28,7 +28,7 @@ type Read = fn(&Table) -> Result<String, Fault>;
 
 fn oak(table: &Table) -> Result<String, Fault> {
     let (height, color) = (table.get(&HEIGHT)?, table.get(&COLOR)?.to_array());
-    // Weather matters to tall trees alone.
+    // `weather` is read only for tall trees.
     let weather = if height > 10.0 { table.get(&WEATHER)? } else { None };
     Ok(format!("oak {height} {color:?} {weather:?}"))
 }
@@ -95,7 +95,7 @@ fn a_foreign_registry_reads_its_kinds() {
     );
 }
 
-/// What is written down is read as the same value, in range or not. Seen to fail with a scale written as its first factor.
+/// A value that is written and read again is the same, in range or not. Seen to fail with a scale written as its first factor.
 #[test]
 fn values_are_read_as_they_were_written() {
     fn round<T: Param + PartialEq + std::fmt::Debug>(value: T) {
@@ -121,7 +121,7 @@ fn values_are_read_as_they_were_written() {
     round(Some(4_u32));
 }
 
-/// Ranges and their words. Seen to fail with each bound included that is not, with the other way round, and with bounds
+/// Ranges and their descriptions. Seen to fail with each bound included that is not, with the other way round, and with bounds
 /// compared in f64, where the float 0.1 is above 0.1.
 #[test]
 fn ranges_are_open_or_closed() {

@@ -1,4 +1,4 @@
-//! The registries of what scene files can hold: whatever is in them, now and later, has to keep these rules.
+//! Rules that every entry of every registry has to keep, now and later.
 //!
 //! Values are the keys' defaults, or their examples where there is none.
 
@@ -18,7 +18,7 @@ fn for_all_kinds(mut check: impl FnMut(&dyn AnySection, &Kind<()>)) {
     assert!(count >= 19, "{count} kinds");
 }
 
-/// All keys of a kind but the one that names it.
+/// All keys of a kind, except the selector.
 fn keys(section: &dyn AnySection, kind: &Kind<()>) -> Vec<&'static dyn AnyKey> {
     kind.keys.iter().chain(section.common()).copied().collect()
 }
@@ -31,13 +31,13 @@ fn value(key: &dyn AnyKey) -> String {
     key.default_text().filter(|default| default != "none").unwrap_or_else(|| key.example())
 }
 
-/// A scene with one table of this kind, and these lines in it.
+/// A scene with one table of this kind that contains these lines.
 fn scene(section: &dyn AnySection, kind: &Kind<()>, lines: &str) -> String {
     let name = if section.is_named() { ".x" } else { "" };
     format!("[{}{name}]\n{} = {:?}\n{lines}", section.key(), section.selector(), kind.name)
 }
 
-/// What is wrong with a scene before its meshes are read. `test` names the file that it is read from.
+/// The error in a scene before its meshes are read. `test` names the file that it is read from.
 fn fault(test: &str, text: &str) -> Option<String> {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("registries-{test}.toml"));
     std::fs::write(&path, text).unwrap();
@@ -75,7 +75,7 @@ fn defaults_can_be_written_down_and_are_in_range() {
     });
 }
 
-/// A shape needs one, or an emission.
+/// Every shape needs a material or an emission.
 fn is_material(key: &dyn AnyKey) -> bool {
     key.name() == "material"
 }

@@ -1,5 +1,5 @@
-//! What the render loop promises beside the picture: what it counts, what it keeps of first hits, that
-//! it ends on request and with what, and that lights with an extent get samples.
+//! The render loop, apart from the picture: counters, layers of first hits, cancelling, passes, and samples for lights
+//! with an extent.
 
 mod scenes;
 
@@ -59,7 +59,7 @@ impl Texture<Spectrum> for Half {
     }
 }
 
-/// Lobes that are not numbers are counted by the Bsdf, once for the light and once for the albedo, and
+/// Lobe values that are not finite are counted by the Bsdf, once for the light and once for the albedo, and
 /// shown black. Seen to fail with kd clamped whatever it is, and without the count for the albedo.
 #[test]
 fn reflectances_that_are_none_are_counted() {
@@ -82,7 +82,7 @@ fn radiance_that_is_none_is_counted() {
     assert!(bright.picture.color.iter().all(|color| color.is_black()));
 }
 
-/// Breaks the shading frame in both ways that there are.
+/// Sets an invalid shading frame, in each of the two possible ways.
 struct NoFrame;
 
 impl Material for NoFrame {
@@ -93,7 +93,7 @@ impl Material for NoFrame {
     }
 }
 
-/// A shading frame that is none stays out of the layers, which show the surface's own, and each is counted. Seen to
+/// An invalid shading frame is counted, and does not reach the layers, which show the surface's own. Seen to
 /// fail without the test of frames in `Bsdf::new`, and with a normal of NaN set.
 #[test]
 fn frames_that_are_none_are_counted() {
@@ -104,7 +104,7 @@ fn frames_that_are_none_are_counted() {
     assert!(broken.picture.layers.unwrap().normal.iter().all(|n| *n == Vec3::Y));
 }
 
-/// No more threads take part than there are tiles. Seen to fail with the number that was asked for.
+/// No more threads run than there are tiles. Seen to fail with the number that was asked for.
 #[test]
 fn threads_that_took_part_are_told() {
     let scene = floor_of(MatteMaterial::new([0.5; 3])).build().unwrap();
@@ -148,8 +148,8 @@ fn layers_are_zero_where_nothing_is() {
     assert!(layers.normal.iter().all(|normal| *normal == Vec3::ZERO));
 }
 
-/// A render that is cancelled by what is told of its progress ends after that tile, and a request after the last tile
-/// comes too late. Seen to fail with the request looked at only once, and with it looked at again at the end.
+/// A render that its progress callback cancels ends after that tile; a request after the last tile has no effect.
+/// Seen to fail with the request looked at only once, and with it looked at again at the end.
 #[test]
 fn cancelling_ends_a_render() {
     let (scene, view) = (ball_over_floor().build().unwrap(), chapter_view(UVec2::splat(64)));
@@ -305,8 +305,8 @@ fn a_cancelled_render_returns_what_it_has() {
     }
 }
 
-/// Each pass is handed over as it ends, with the picture so far; that changes nothing, and may cancel the render. Seen
-/// to fail with the callback before the pass is counted, and with it called after a cancelled pass.
+/// The callback gets each pass as it ends, with the picture so far. It does not change the picture, and may cancel the
+/// render. Seen to fail with the callback before the pass is counted, and with it called after a cancelled pass.
 #[test]
 fn passes_are_handed_over() {
     let light = SkyLight::new(Spectrum::WHITE);
@@ -345,7 +345,7 @@ fn passes_are_handed_over() {
     }
 }
 
-/// No samples, no mean.
+/// Zero samples are an error.
 #[test]
 fn no_samples_are_an_error() {
     let (scene, view) = (Scene::builder().build().unwrap(), from_above());
@@ -361,8 +361,8 @@ fn no_samples_are_an_error() {
     }
 }
 
-/// A square of side 2 at y = 0 over the middle of the floor, sampled over its area: a light with an
-/// extent, as another crate would write one.
+/// A square of side 2 at y = 0 over the middle of the floor, sampled by area: a light with an extent, written as
+/// in another crate.
 struct Panel;
 
 impl Light for Panel {

@@ -1,4 +1,4 @@
-//! Scene files: what good ones give, and what is said about bad ones, word for word.
+//! Scene files: the scenes that valid files give, and the whole error messages of invalid ones.
 //!
 //! Breaks that these tests caught, one at a time: columns counted from 0, and in bytes; a table whose
 //! keys are not checked; the nearest name taken however far it is; overrides that do not replace, or
@@ -17,7 +17,7 @@ use lobe::sampling::SamplerKind;
 use lobe::scene_file::{LoadedScene, SceneFileError, parse_scene, read_scene};
 use lobe::{PerspectiveSettings, RenderSettings, Spectrum, View};
 
-/// A folder of this test's own with a triangle in it.
+/// A temporary folder with a triangle in it.
 fn folder(test: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("scene_file").join(test);
     std::fs::create_dir_all(&folder).unwrap();
@@ -29,7 +29,7 @@ fn parse(text: &str, overrides: &[&str]) -> Result<LoadedScene, SceneFileError> 
     parse_scene("s.toml".as_ref(), text, overrides)
 }
 
-/// The message that a text and its overrides give.
+/// The error message for a text and its overrides.
 #[track_caller]
 fn refused(text: &str, overrides: &[&str]) -> String {
     match parse(text, overrides) {
@@ -89,7 +89,7 @@ obj = "triangle.obj"
 material = "cloth"
 "#;
 
-/// Asserts that a view has the camera of these settings, by its rays and by what it says of itself.
+/// Asserts that a view has the camera of these settings, by its rays and its description.
 #[track_caller]
 fn assert_camera(view: &View, settings: &PerspectiveSettings) {
     let expected = PerspectiveCamera::new(settings, view.film().resolution).unwrap();
@@ -134,7 +134,7 @@ fn a_file_gives_its_scene() {
     assert!(report.seconds > 0.0);
 }
 
-/// What the chapter has no need of: filters, other samplers, paths, lights of all kinds.
+/// Features beyond the chapter: filters, other samplers, paths, lights of all kinds.
 #[test]
 fn a_file_with_light_gives_its_scene() {
     let text = r#"
@@ -174,7 +174,7 @@ fn a_file_with_light_gives_its_scene() {
     let below = |light: &dyn Light| light.sample_li(Vec3::ZERO, Vec2::splat(0.5)).unwrap();
     assert_eq!((below(&**sun).wi, below(&**sun).li), (Vec3::Y, Spectrum::new(3.0, 2.0, 1.0)));
     assert_eq!(below(&**sky).li, Spectrum::new(0.5, 0.5, 1.0));
-    // Its corner's neighbours span a normal that points down, and all of it was moved up.
+    // The rectangle's edges span a normal that points down, and all of it was moved up.
     let from = below(&**lamp);
     assert_eq!(from.li, Spectrum::splat(4.0));
     assert!((from.from.unwrap() - Vec3::Y * 3.0).length() < 1e-5, "{from:?}");
@@ -191,7 +191,7 @@ fn everything_has_a_default_in_an_empty_file() {
         let default = RenderSettings::default();
         assert_eq!(settings.sampler, default.sampler);
         assert_eq!(settings.integrator.describe(), default.integrator.describe());
-        // Sobol points and paths, and not what was first in the book.
+        // The default is Sobol points and paths, not the chapter's estimator.
         let SamplerSettings { kind, spp, .. } = settings.sampler;
         assert_eq!((kind, spp), (SamplerKind::SOBOL, 64));
         assert_eq!(settings.integrator.describe(), PathIntegrator::new(5).describe());
@@ -216,7 +216,7 @@ fn a_shape_is_scaled_then_rotated_then_translated() {
     // About +z from x to y, about +y from z to x.
     assert!((place("rotate = [0, 0, 5, 90]") - Vec3::Y).length() < 1e-6);
     assert!((place("rotate = [0, 1, 0, 90]") + Vec3::Z).length() < 1e-6);
-    // The length of an axis does not matter, however far its square leaves f32.
+    // The length of an axis does not matter, even if its square overflows f32.
     assert!((place("rotate = [0, 0, 1e30, 90]") - Vec3::Y).length() < 1e-6);
     assert!((place("rotate = [0, 0, 1e-30, 90]") - Vec3::Y).length() < 1e-6);
     let all = place("translate = [0, 0, 7]\nrotate = [0, 0, 1, 90]\nscale = [2, 9, 9]");
@@ -540,7 +540,7 @@ fn names_of_nothing() {
             "sigma = \"rough\"",
             "s.toml:3:42: `material.mat.sigma` is the texture \"rough\", 95, expected degrees from 0 to 90",
         ),
-        // The mesh is not there either, but meshes come last.
+        // The mesh is missing too, but meshes are read last.
         ("bump = 1", "s.toml:6:12: the scene has no material `mta`; did you mean `mat`?"),
     ];
     for (rest, message) in cases {
@@ -584,7 +584,7 @@ fn overrides_replace_and_add_values() {
     assert!(camera(&["camera.fov=40", " camera . fov = 41 # "]).contains(" 41 degrees"));
     let seed = parse_scene(&path, GOOD, &["sampler={seed=3}"]).unwrap().settings.sampler.seed;
     assert_eq!(seed, 3);
-    // What the file leaves out: of a shape, and of a table that it has not got either.
+    // Values that the file leaves out: a key of a shape, and a whole table.
     let scaled = scene(&["shape.z.scale=2", "shape.'a b'.translate=[0,0,1]"]);
     let places: Vec<_> = scaled.shapes().map(|(_, mesh)| mesh.positions[1]).collect();
     assert_eq!(places, [Vec3::new(2.0, -1.5, 0.0), Vec3::new(1.0, 0.0, 1.0)]);
@@ -680,7 +680,7 @@ fn files_that_cannot_be_read() {
     assert_eq!(message(&folder), format!("{name}: is a directory, expected a scene file"));
 }
 
-/// The scenes of the project, but for the dragon's mesh.
+/// The project's scenes, without the dragon's mesh.
 #[test]
 fn the_scenes_in_assets_are_good() {
     for (name, triangles) in [
