@@ -1,10 +1,10 @@
-//! What shading costs, in nanoseconds per element: `cargo bench shading`.
+//! Cost of shading, in nanoseconds per element: `cargo bench shading`.
 //!
-//! - `shading/lobe/*`: one question to the Bsdf of a hit.
-//! - `shading/storage/*`: a Bsdf built and asked for f and pdf, for each way to hold its lobes.
+//! - `shading/lobe/*`: one method of a hit's Bsdf.
+//! - `shading/storage/*`: construction of a Bsdf, f and pdf, for each way to store its lobes.
 //! - `shading/texture/*`: a constant read in place, and behind a pointer.
-//! - `shading/sampler/*`: one point of each sampler, asked for alone and together with the pixel's others.
-//! - `shading/hit/*`: all that the chapter's estimator does with a hit, through the traits and as
+//! - `shading/sampler/*`: one point of each sampler, by a call of its own and together with the pixel's others.
+//! - `shading/hit/*`: the chapter's estimator at a hit, through the traits and as
 //!   arithmetic written by hand.
 //!
 //! All run over one fixed pool of hits.
@@ -31,7 +31,7 @@ use lobe::{MatteMaterial, PointLight, Scene, Spectrum, TriangleMesh};
 use smallbox::SmallBox;
 use smallbox::space::S4;
 
-/// Few enough to stay in the first-level cache, so that computing is measured and not waiting.
+/// Number of hits: few enough to stay in the first-level cache, so that computation is measured, not memory.
 const POOL: usize = 256;
 const RED: Spectrum = Spectrum::new(0.8, 0.1, 0.2);
 const LIGHT: Vec3 = Vec3::new(10.0, 10.0, -10.0);
@@ -40,7 +40,7 @@ const LIGHT: Vec3 = Vec3::new(10.0, 10.0, -10.0);
 struct Sample {
     ray: Ray,
     hit: Hit,
-    number: usize,
+    index: usize,
     frame: Frame,
     wo: Vec3,
     wi: Vec3,
@@ -48,7 +48,7 @@ struct Sample {
     u: Vec2,
 }
 
-/// Hits on a tent of two triangles, at points and from directions that a lattice spreads out.
+/// Hits on a tent of two triangles, at points and from directions of a lattice.
 fn pool(mesh: &TriangleMesh) -> Vec<Sample> {
     let lattice = |i: usize, step: f32| (i as f32 * step).fract();
     (0..POOL)
@@ -62,7 +62,7 @@ fn pool(mesh: &TriangleMesh) -> Vec<Sample> {
             let hit =
                 Hit { t: 1.0, b: [b.x, b.y, 1.0 - b.x - b.y], shape: 0, triangle: triangle as u32 };
             let uc = lattice(i, 0.819_173);
-            Sample { ray: Ray::new(wo, -wo), hit, number: i, frame, wo, wi, uc, u }
+            Sample { ray: Ray::new(wo, -wo), hit, index: i, frame, wo, wi, uc, u }
         })
         .collect()
 }
@@ -103,25 +103,25 @@ fn lobes(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("shading/lobe");
     let all = BxdfFlags::all();
     let smooth: Vec<_> = pool.iter().map(|s| bsdf(s, LambertianReflection::new(RED))).collect();
-    measure(&mut group, "f lambertian", &pool, |s| smooth[s.number].f(s.wo, s.wi, all));
+    measure(&mut group, "f lambertian", &pool, |s| smooth[s.index].f(s.wo, s.wi, all));
     measure(&mut group, "f by hand", &pool, |s| {
         if same_side(s, s.wi) { RED * FRAC_1_PI } else { Spectrum::BLACK }
     });
-    measure(&mut group, "pdf lambertian", &pool, |s| smooth[s.number].pdf(s.wo, s.wi, all));
+    measure(&mut group, "pdf lambertian", &pool, |s| smooth[s.index].pdf(s.wo, s.wi, all));
     measure(&mut group, "pdf by hand", &pool, |s| {
         if same_side(s, s.wi) { s.wi.dot(s.frame.n).abs() * FRAC_1_PI } else { 0.0 }
     });
     measure(&mut group, "sample_f lambertian", &pool, |s| {
-        smooth[s.number].sample_f(s.wo, s.uc, s.u, all)
+        smooth[s.index].sample_f(s.wo, s.uc, s.u, all)
     });
     measure(&mut group, "sample_f by hand", &pool, |s| {
         let local = cosine_hemisphere::sample(s.u);
         (RED * FRAC_1_PI, s.frame.to_world(local), local.z * FRAC_1_PI)
     });
     let rough: Vec<_> = pool.iter().map(|s| bsdf(s, OrenNayar::new(RED, 20.0))).collect();
-    measure(&mut group, "f oren-nayar", &pool, |s| rough[s.number].f(s.wo, s.wi, all));
+    measure(&mut group, "f oren-nayar", &pool, |s| rough[s.index].f(s.wo, s.wi, all));
     measure(&mut group, "sample_f oren-nayar", &pool, |s| {
-        rough[s.number].sample_f(s.wo, s.uc, s.u, all)
+        rough[s.index].sample_f(s.wo, s.uc, s.u, all)
     });
 }
 
@@ -129,7 +129,7 @@ fn same_side(s: &Sample, wi: Vec3) -> bool {
     s.wo.dot(s.frame.n) * wi.dot(s.frame.n) > 0.0
 }
 
-/// f and pdf of a list of lobes that is held in some other way than [`Bsdf`] holds it.
+/// f and pdf of a list of lobes that is stored in another way than in [`Bsdf`].
 fn ask<'a, B: BxDF + ?Sized + 'a>(
     s: &Sample,
     lobes: impl Iterator<Item = &'a B>,
@@ -157,7 +157,7 @@ fn storage(criterion: &mut Criterion) {
         arena.reset();
         answer
     });
-    // The same without Bsdf's guards, so that only the ways to hold a lobe differ.
+    // The same without Bsdf's guards, so that only the storage differs.
     measure(&mut group, "bare enum", &pool, |s| {
         let lobes = [lobe::bxdf::Lobe::from(LambertianReflection::new(RED))];
         ask(s, black_box(lobes).iter())
@@ -234,7 +234,7 @@ fn hits(criterion: &mut Criterion) {
     });
     let mut interactions: Vec<_> = pool.iter().map(|s| scene.interaction(&s.ray, &s.hit)).collect();
     measure(&mut group, "bsdf of a matte hit", &pool, |s| {
-        matte.compute_scattering(&mut interactions[s.number], &arena)
+        matte.compute_scattering(&mut interactions[s.index], &arena)
     });
     measure(&mut group, "through the traits", &pool, |s| {
         let mut si = scene.interaction(&s.ray, &s.hit);

@@ -1,13 +1,13 @@
-//! What it costs to find hits, as rays per second, and to build the tree, as triangles per second:
-//! `cargo bench traversal`; `cargo bench traversal -- 100k` leaves the large dragon out.
+//! Cost of finding hits, in rays per second, and of building the tree, in triangles per second:
+//! `cargo bench traversal`; `cargo bench traversal -- 100k` skips the large dragon.
 //!
 //! The chapter's scene, dragon and floor, with a dragon of 100,000 triangles and one of 2,000,000:
 //! - `camera`: the closest hits of 512 x 512 camera rays, in tiles of 8 x 8 pixels;
-//! - `shadow`: whether anything lies between those hits and the light, as many again;
-//! - `diffuse`: the closest hits of rays that leave those hits as a matte surface spreads them, as many;
+//! - `shadow`: occlusion between those hits and the light, as many;
+//! - `diffuse`: the closest hits of cosine-weighted rays from those hits, as many;
 //! - `build`: the tree.
 //!
-//! `single` asks for one ray at a time and `batch` for 1024, as many as a renderer's wave holds. The
+//! `single` traces one ray at a time and `batch` 1024, as many as a renderer's wave has. The
 //! large dragon is sculpted the first time (38 s of processor time) and kept as a file in cargo's target
 //! folder: delete `dragon-2000000.obj` there after a change of the sculptor.
 
@@ -73,7 +73,7 @@ fn small_dragon() -> TriangleMesh {
     stand(&Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/dragon.obj"))
 }
 
-/// One twenty times as fine, from the file of an earlier run if there is one.
+/// A dragon of twenty times as many triangles, from the file of an earlier run if there is one.
 fn large_dragon() -> TriangleMesh {
     let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("dragon-2000000.obj");
     if !file.exists() {
@@ -82,7 +82,7 @@ fn large_dragon() -> TriangleMesh {
     stand(&file)
 }
 
-/// Sculpts a dragon into a file, which appears when it is whole.
+/// Sculpts a dragon into a file, which is renamed into place when it is complete.
 fn sculpt_to(file: &Path, triangles: usize) -> Result<(), Box<dyn Error>> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let dragon = sculpt(triangles, threads).map_err(|fault| fault.to_string())?;
@@ -96,7 +96,7 @@ fn sculpt_to(file: &Path, triangles: usize) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Reads a dragon and puts it where the chapter's stands.
+/// Reads a dragon and moves it to the place of the chapter's.
 fn stand(file: &Path) -> TriangleMesh {
     let mut mesh = read_obj(file).expect("the dragon is there").mesh;
     mesh.positions.iter_mut().for_each(|p| p.y -= 1.45);
@@ -130,7 +130,7 @@ fn camera_rays() -> Vec<Ray> {
         .collect()
 }
 
-/// Points that fill the unit square evenly: Roberts's R2 sequence. f64 has the bits for its index.
+/// A low-discrepancy sequence in the unit square: Roberts's R2. In f64, which has enough bits for its index.
 fn lattice_point(i: usize) -> Vec2 {
     let coordinate = |step: f64| ((0.5 + i as f64 * step).fract() as f32).min(0.999_999);
     Vec2::new(coordinate(0.754_877_666_246_692_7), coordinate(0.569_840_290_998_053_3))
@@ -170,7 +170,7 @@ type Dragon = fn() -> TriangleMesh;
 const SIZES: [(&str, u64, Dragon); 2] =
     [("100k", 100_000, small_dragon), ("2M", 2_000_000, large_dragon)];
 
-/// Which rays are sent, and how.
+/// Rays and how they are traced.
 type Rays = fn(&Fixture) -> &[Ray];
 type Way = fn(&Accel, &[Ray]);
 
@@ -185,7 +185,7 @@ const CASES: [(&str, Rays, Way); 6] = [
 
 fn traversal(criterion: &mut Criterion) {
     for (size, triangles, dragon) in SIZES {
-        // Made when the first benchmark asks that was selected.
+        // Computed when the first selected benchmark needs it.
         let fixture = LazyCell::new(|| Fixture::new(dragon()));
         let mut group = criterion.benchmark_group(format!("traversal/{size}"));
         group.sample_size(10).warm_up_time(Duration::from_millis(500));

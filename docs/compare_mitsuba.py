@@ -1,12 +1,12 @@
-"""The same scenes by lobe and by Mitsuba 3, side by side: do they agree, how fast are they, and how far off at equal time.
+"""Compares lobe with Mitsuba 3 on the same scenes: agreement of the images, speed, and error at equal time.
 
     cargo build --release
     python3 -m venv venv && venv/bin/pip install mitsuba==3.9.* numpy OpenEXR
     apt-get install libllvm19                       # for Mitsuba's llvm_ad_rgb
     venv/bin/python docs/compare_mitsuba.py MESH.obj agree speed error [--scale 0.3] [--lift -1.45] [--threads 2] [--out FOLDER]
 
-MESH.obj stands on y = 0 and is scaled and lifted to where the chapter's dragon stands; `assets/dragon.obj --scale 1` will do.
-Prints tables in Markdown. docs/light.md has them, and says what they mean.
+MESH.obj has to stand on y = 0. It is scaled and lifted to the place of the chapter's dragon; `assets/dragon.obj --scale 1` works.
+Prints tables in Markdown. docs/light.md contains and explains them.
 
 Scenes: eye (-3, 1.5, -3), target the origin, 90 degrees, 512 x 512 pixels, box filter, Lambertian dragon and floor
 without vertex normals. `point`: (10, 10, -10), 900 W/sr, direct light. `sky`: radiance 1 from everywhere, five
@@ -116,7 +116,7 @@ def by_lobe(scene, *options):
 
 
 def lobe_seconds(scene, *options):
-    """A PNG alone: no layers, which Mitsuba does not make either."""
+    """Writes a PNG only: Mitsuba does not compute layers either."""
     run = subprocess.run([a.lobe, "render", path(scene + ".toml"), "-o", path("out.png"), "--threads", str(a.threads), *options],
                          check=True, capture_output=True, text=True)
     return next(float(l.split()[1]) for l in run.stdout.splitlines() if l.startswith("render "))
@@ -137,7 +137,7 @@ def agree():
         theirs = np.stack([by_mitsuba(m, "independent", spp, s)[0] for s in range(seeds)]).astype(np.float64)
         mean, var = theirs.mean(0), theirs.var(0, ddof=1) / seeds
         image, variance, _, _ = by_lobe(scene, *sampled("independent", ours, *mis(scene)))
-        # What f32 loses on either side: pixels without noise are still not equal to the last digit.
+        # Rounding of f32 on either side: even pixels without noise differ in the last digits.
         rounding = (4e-6 * np.maximum(mean, image)) ** 2
         z = (image - mean) / np.sqrt(var + variance + rounding + 1e-30)
         tests = z.size
@@ -162,7 +162,7 @@ def speed():
             auto = lambda: rate.setdefault("auto", []).append(lobe_seconds(scene, *sampled("sobol", spp, "sampler.replicates=1")))
             for run in range(a.runs):
                 for variant in ["llvm_ad_rgb", "scalar_rgb"]:
-                    # Scalar is slow, and as fast by sample with fewer of them.
+                    # Scalar is slow, and its speed per sample does not depend on their number.
                     samples = spp if variant == "llvm_ad_rgb" else min(spp, 32)
                     rate.setdefault(variant, []).append(mitsuba_seconds(variant, scene, samples, run) * spp / samples)
                     ours()
@@ -199,7 +199,7 @@ def error():
             by_mitsuba(m, sampler, spp, 999)  # compiles the kernel
             runs = [by_mitsuba(m, sampler, spp, s) for s in range(a.runs)]
             return statistics.median(rel(i) for i, _ in runs) - own, statistics.median(t for _, t in runs)
-        # Their best: the lowest product of error and time, which is what a budget buys.
+        # Mitsuba's best sampler: the lowest product of error and time.
         samplers = ["independent", "stratified", "multijitter", "orthogonal", "ldsampler"]
         sampler = min(samplers, key=lambda name: np.prod(by_their(name, 16)))
         for spp in [16, 64, 256]:

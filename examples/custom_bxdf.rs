@@ -1,6 +1,6 @@
-//! A reflection model of one's own: smooth glass, in a white furnace.
+//! A custom reflection model: smooth glass, in a white furnace.
 //!
-//! Under a sky of radiance 1 a body that absorbs nothing cannot be seen: every pixel is 1.
+//! Under a sky of radiance 1 a body that absorbs nothing is invisible: every pixel is 1.
 //!
 //! `cargo run --release --example custom_bxdf`
 
@@ -29,7 +29,7 @@ impl BxDF for Glass {
         BxdfFlags::REFLECTION | BxdfFlags::TRANSMISSION | BxdfFlags::SPECULAR
     }
 
-    // A delta lobe has no value for directions that were not drawn from it.
+    // A delta lobe is black for all directions that it did not sample itself.
     fn f(&self, _wo: Vec3, _wi: Vec3) -> Spectrum {
         Spectrum::BLACK
     }
@@ -56,7 +56,7 @@ impl BxDF for Glass {
             }
             Some(wi) => {
                 let transmittance = 1.0 - reflectance;
-                // Radiance is spread over a larger solid angle on the thinner side: 1/η².
+                // Refraction changes the solid angle, and radiance by 1/η².
                 let f = Spectrum::splat(transmittance / (eta * eta * wi.z.abs()));
                 Some(BxdfSample::specular(f, wi, transmittance).transmitted(eta))
             }

@@ -1,5 +1,5 @@
-//! A camera, a sampler and an integrator of one's own: the inside of a torus through a fisheye, where bright is
-//! far away.
+//! A custom camera, sampler and integrator: the inside of a torus through a fisheye lens, where brightness is
+//! distance.
 //!
 //! `cargo run --release --example custom_camera [FILE.png]`
 
@@ -17,7 +17,7 @@ use lobe::render::{Sampling, render_with};
 use lobe::sampling::{SampleId, Sampler};
 use lobe::{FilmSettings, MatteMaterial, RenderOptions, Scene, Spectrum, View};
 
-/// Equidistant fisheye that looks along +z: the angle to it grows with the distance from the middle of the
+/// Equidistant fisheye that looks along +z: the angle to +z grows linearly with the distance from the middle of the
 /// image, to 90 degrees at the edges.
 struct Fisheye {
     resolution: UVec2,
@@ -41,11 +41,11 @@ impl Camera for Fisheye {
     }
 }
 
-/// Roberts's R2 sequence, moved about the unit square by pixel and dimension.
+/// Roberts's R2 sequence, shifted in the unit square by pixel and dimension.
 struct Quasirandom;
 
 impl Sampler for Quasirandom {
-    // The samples of a pixel are spread evenly, so their own variance does not tell the error of their mean.
+    // The samples of a pixel are correlated, so their variance does not give the error of their mean.
     fn is_correlated(&self) -> bool {
         true
     }

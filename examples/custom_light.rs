@@ -1,4 +1,4 @@
-//! A light of one's own: a sky that is brighter overhead, with directions drawn to match.
+//! A custom light: a sky that is brighter overhead, with directions sampled in proportion.
 //!
 //! `cargo run --release --example custom_light [FILE.png]`
 
@@ -15,7 +15,7 @@ use lobe::{
     Spectrum, TriangleMesh, View, render,
 };
 
-/// Radiance in proportion to the cosine with +y, and none from below.
+/// Radiance in proportion to the cosine with +y, and zero from below.
 struct Overcast {
     zenith: Spectrum,
 }

@@ -1,4 +1,4 @@
-//! A material of one's own, of two lobes: a Phong lobe over a diffuse base, on a torus.
+//! A custom material of two lobes: a Phong lobe over a diffuse base, on a torus.
 //!
 //! `cargo run --release --example custom_material [FILE.png]`
 
@@ -20,7 +20,7 @@ use lobe::{
 };
 
 /// Light spread around the mirror direction r: f = R (n + 2)/(2π) (r · wi)ⁿ, the modified Phong model of
-/// Lafortune and Willems 1994, which is reciprocal and keeps energy.
+/// Lafortune and Willems 1994, which is reciprocal and conserves energy.
 #[derive(Clone, Copy)]
 struct PhongLobe {
     r: Spectrum,
@@ -49,7 +49,7 @@ impl BxDF for PhongLobe {
         let around = (1.0 - cos_alpha * cos_alpha).sqrt() * Vec2::from_angle(TAU * u.y);
         let wi = Frame::from_normal(reflect(wo, Vec3::Z)).to_world(around.extend(cos_alpha));
         let pdf = self.pdf(wo, wi);
-        // A part of the lobe may lie below the surface: no sample.
+        // Directions below the surface give no sample.
         (pdf > 0.0).then(|| BxdfSample::glossy(self.f(wo, wi), wi, pdf))
     }
 
@@ -60,7 +60,7 @@ impl BxDF for PhongLobe {
         }
     }
 
-    // How often it is drawn, beside the other lobe.
+    // The lobe is selected in proportion to it.
     fn albedo_estimate(&self, _wo: Vec3) -> f32 {
         self.r.max_component()
     }

@@ -1,4 +1,4 @@
-//! Textures of one's own: a checkered floor with ripples around a torus.
+//! Custom textures: a checkered floor with ripples around a torus.
 //!
 //! `cargo run --release --example custom_texture [FILE.png]`
 
@@ -19,7 +19,7 @@ use lobe::{
     Scene, Spectrum, TriangleMesh, View, render,
 };
 
-/// Squares of unit size in the plane across y.
+/// Squares of unit size in the xz plane.
 struct Checkers(Spectrum, Spectrum);
 
 impl Texture<Spectrum> for Checkers {

@@ -4,11 +4,11 @@
 //! [--isa portable|avx2|avx512] [--check N]`
 //!
 //! A ray file is a flat array of rays, each 8 little-endian f32: origin, t_min, direction, t_max. Each file is traced
-//! nine times. A line gives the number of rays and hits, the sum of t over the hits (0 in the modes that ask for any
-//! hit), and the median and best of millions of rays per second.
+//! nine times. A line gives the number of rays and hits, the sum of t over the hits (0 in the any-hit
+//! modes), and the median and best of millions of rays per second.
 //!
 //! `--isa` builds the tree for an instruction set and traces with it; the default is the fastest that the processor has.
-//! `--check` also tests every N-th ray against all triangles one by one, and reports for how many the tree gave the same.
+//! `--check` also tests every N-th ray against all triangles one by one, and reports the number of equal results.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -69,9 +69,7 @@ fn options() -> Result<Options, Box<dyn Error>> {
                 }
             }
             option if option.starts_with('-') => {
-                return Err(
-                    format!("there is no option {option}; see the head of this file").into()
-                );
+                return Err(format!("there is no option {option}; see the top of this file").into());
             }
             file => files.push(PathBuf::from(file)),
         }
@@ -132,7 +130,7 @@ fn trace(accel: &Accel, rays: &[Ray], mode: Mode) -> (usize, f64) {
     }
 }
 
-/// For how many of the rays the tree gives the same answers as a loop over all triangles.
+/// Number of rays for which the tree gives the same results as a loop over all triangles.
 fn same_as_loop(accel: &Accel, mesh: &TriangleMesh, rays: &[&Ray]) -> usize {
     let is_same = |ray: &&&Ray| {
         let sheared = ShearedRay::new(ray);

@@ -56,6 +56,9 @@ use tree::{Bvh, MAX_TRIANGLES};
 /// accel.intersect(&rays, &mut hits);
 /// assert_eq!(hits.iter().filter(|hit| hit.is_hit()).count(), 501);
 /// ```
+#[doc(alias = "bvh")]
+#[doc(alias = "bounding volume hierarchy")]
+#[doc(alias = "acceleration structure")]
 #[derive(Clone, Debug)]
 pub struct Accel {
     bvh: Bvh,

@@ -38,6 +38,10 @@ impl Default for EquirectangularSettings {
 /// φ = 0 and θ = π/2. The left and right edge both look backwards, the upper edge is the direction up, and the lower
 /// one down. Up is the setting made perpendicular to the view. A pixel stands for a solid angle in proportion to sin θ;
 /// pixels are as wide as high at the horizon if the image is twice as wide as high.
+#[doc(alias = "panorama")]
+#[doc(alias = "360")]
+#[doc(alias = "spherical camera")]
+#[doc(alias = "environment camera")]
 #[derive(Clone, Copy, Debug)]
 pub struct EquirectangularCamera {
     settings: EquirectangularSettings,

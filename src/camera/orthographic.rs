@@ -51,6 +51,7 @@ impl Default for OrthographicSettings {
 }
 
 /// An orthographic camera, with a thin lens if it has one (PBRT 3rd edition, sections 6.2.1 and 6.2.3).
+#[doc(alias = "parallel projection")]
 #[derive(Clone, Copy, Debug)]
 pub struct OrthographicCamera {
     settings: OrthographicSettings,

@@ -49,6 +49,9 @@ impl Default for PerspectiveSettings {
 }
 
 /// A perspective camera with a thin lens or a pinhole (PBRT 3rd edition, sections 6.2.2 and 6.2.3).
+#[doc(alias = "pinhole")]
+#[doc(alias = "thin lens")]
+#[doc(alias = "depth of field")]
 #[derive(Clone, Copy, Debug)]
 pub struct PerspectiveCamera {
     settings: PerspectiveSettings,

@@ -11,6 +11,7 @@ use crate::spectrum::Spectrum;
 
 /// Why a film cannot be created.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum FilmError {
     /// The film, its picture and the files made from them do not fit into memory.
     #[error(

@@ -4,6 +4,7 @@ use glam::Vec2;
 
 /// Why a filter cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum FilterError {
     /// The radius is not in `(0, LARGEST_RADIUS]`: see [`Filter::LARGEST_RADIUS`].
     #[error("the filter's radius is {0}: it has to be above 0 and at most 16 pixels")]
@@ -21,6 +22,7 @@ pub enum FilterError {
 /// 2006, "Filter Importance Sampling"). So a sample belongs to one pixel, and tiles do not overlap.
 /// [`FilterSampler`](super::FilterSampler) draws them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub enum Filter {
     /// Constant over the pixel, zero outside.
     #[default]

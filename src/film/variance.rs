@@ -4,6 +4,7 @@ use super::pixel_sum::{PixelSum, zeroed};
 
 /// How a film estimates the variance of each pixel's mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Variance {
     /// No estimate.
     #[default]

@@ -7,6 +7,7 @@ use crate::spectrum::Spectrum;
 
 /// What the numbers of an image mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Encoding {
     /// Linear radiance: EXR and PFM files.
     Linear,

@@ -19,7 +19,10 @@ use crate::spectrum::Spectrum;
 /// let linear = Display::Srgb.decode(188.0 / 255.0);
 /// assert!((linear - 0.5029).abs() < 1e-4);
 /// ```
+#[doc(alias = "tone mapping")]
+#[doc(alias = "gamma")]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Display {
     /// The sRGB curve with both of its pieces (IEC 61966-2-1). White is 1.
     #[default]

@@ -7,6 +7,7 @@ use crate::sampling::Discrete;
 
 /// How many lights are sampled at each hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum LightChoice {
     /// All of them.
     All,

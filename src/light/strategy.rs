@@ -4,6 +4,7 @@ use crate::params::{Choice, Key};
 
 /// How the directions of direct light are sampled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum LightStrategy {
     /// [`Mis`](LightStrategy::Mis) for lights that benefit from it
     /// ([`Light::is_worth_sampling`](super::Light::is_worth_sampling)), and

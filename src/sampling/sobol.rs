@@ -41,6 +41,8 @@ use crate::params::Kind;
 /// }
 /// assert_eq!(quarters, [1; 4]);
 /// ```
+#[doc(alias = "low-discrepancy")]
+#[doc(alias = "quasi-monte carlo")]
 #[derive(Clone, Copy, Debug)]
 pub struct SobolSampler {
     /// Seed of the scrambles of coordinates.

@@ -1,4 +1,4 @@
-//! `lobe chart`: what it writes, that it goes on where it was, and what it says about bad input.
+//! `lobe chart`: its files, that it resumes, and its messages for bad input.
 
 use std::fs;
 use std::time::Duration;
@@ -51,7 +51,7 @@ fn lasting(folder: &Folder) -> Vec<Vec<String>> {
 fn chart_writes_curves_tables_and_a_page() {
     let folder = folder("chart");
     let summary = folder.prints(CHART);
-    // Sky and surfaces alone: `auto` is `bsdf`, and roulette has no say before the third reflection.
+    // With only a sky and surfaces `auto` equals `bsdf`, and roulette does not start before the third reflection.
     assert!(summary.contains("sobol, bsdf gives the same pictures as sobol here"), "{summary}");
     let names = ["independent", "stratified", "sobol", "blue-noise", "sobol, mis", "sobol, light"];
     for name in names {
@@ -69,9 +69,9 @@ fn chart_writes_curves_tables_and_a_page() {
     assert_eq!(lasting(&folder).len(), 1 + 3 * names.len());
 }
 
-/// What is lost of a chart is made again and nothing else, whenever it was interrupted.
+/// A chart that was interrupted at any time renders what is missing, and nothing else.
 #[test]
-fn chart_goes_on_where_it_was() {
+fn chart_resumes_after_interruptions() {
     let folder = folder("chart_goes_on");
     folder.prints(CHART);
     let whole = lasting(&folder);
@@ -88,7 +88,7 @@ fn chart_goes_on_where_it_was() {
 
     folder.prints("chart sky.toml --budgets 1,2,4 --seeds 3 -o c --fresh");
     assert_eq!(lasting(&folder), whole);
-    // Killed at some moment of its first second.
+    // Killed at some moment in its first second.
     for milliseconds in [20, 60, 150, 400] {
         let words = CHART.split(' ').chain(["--fresh"]);
         let mut child = folder.command(words).stdout(std::process::Stdio::null()).spawn().unwrap();
@@ -100,7 +100,7 @@ fn chart_goes_on_where_it_was() {
     }
 }
 
-/// The time decides on the samples, a list on the methods, and other programs' pictures are points.
+/// The time limit determines the samples, a list the methods, and pictures of other programs are points.
 #[test]
 fn chart_takes_lists_and_pictures() {
     let folder = folder("chart_takes");
@@ -119,7 +119,7 @@ fn chart_takes_lists_and_pictures() {
     assert!(table.lines().last().unwrap().starts_with("\"other\",,1,,0.5,,"), "{table}");
     let svg = fs::read_to_string(folder.0.join("c/error-by-time.svg")).unwrap();
     assert!(svg.contains(">other</text>"), "{svg}");
-    // Methods that only more samples tell apart are two, and one budget alone is enough for a chart.
+    // Methods that differ only with more samples are kept as two, and a single budget is enough for a chart.
     folder.write(
         "list.toml",
         "[methods]\na = ['sampler.type=\"sobol\"', 'sampler.replicates=4']\n\
@@ -151,7 +151,7 @@ fn chart_says_what_is_wrong() {
         "cannot read `no.exr`: No such file or directory (os error 2)",
     );
     folder.fails(
-        // Before anything is rendered: there is no such folder yet.
+        // Errors are found before anything is rendered: the folder does not exist yet.
         "chart sky.toml -o new --add x=small.exr,1",
         "`small.exr`: the images have 4 x 4 and 20 x 10 pixels: they have to be of one size",
     );
@@ -205,7 +205,7 @@ fn chart_says_what_is_wrong() {
     }
 }
 
-/// All questions have a chart, and ours keeps its bounds. Seen to fail with a bound of zero for the sums.
+/// All sweeps have a chart, and ours keeps its bounds. Seen to fail with a bound of zero for the sums.
 #[test]
 fn stability_has_a_chart_for_each_question() {
     let folder = Folder::new("chart_stability");

@@ -1,4 +1,4 @@
-//! Where a test runs the command.
+//! Temporary folders in which tests run the command.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -28,7 +28,7 @@ material = "clay"
 
 const WALL: &str = "v -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\nv 9 9 9\nf 1 2 3\nf 1 3 4\nf 1 1 2\n";
 
-/// A folder of a test's own that holds `s.toml` and `wall.obj`, and nothing else.
+/// A temporary folder that contains `s.toml` and `wall.obj`, and nothing else.
 pub struct Folder(pub PathBuf);
 
 impl Folder {
@@ -52,12 +52,12 @@ impl Folder {
         command
     }
 
-    /// Runs the command in the folder, with words that blanks separate.
+    /// Runs the command in the folder, with arguments separated by blanks.
     pub fn run(&self, arguments: &str) -> Output {
         self.command(arguments.split_whitespace()).output().unwrap()
     }
 
-    /// What the command prints when all goes well: then nothing comes on stderr.
+    /// The standard output of a successful run, which prints nothing on stderr.
     #[track_caller]
     pub fn prints(&self, arguments: &str) -> String {
         let Output { status, stdout, stderr } = self.run(arguments);

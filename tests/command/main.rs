@@ -1,5 +1,4 @@
-//! The command, run as its user runs it: what it says and writes, and what it says about bad input,
-//! word for word.
+//! The command, run as its user runs it: output, files, and the whole error messages for bad input.
 //!
 //! Breaks that these tests caught, one at a time: outputs not checked before the render; an EXR without
 //! layers; `print!` for the summary, which panics when the pipe is closed; a film whose number of bytes
@@ -139,7 +138,7 @@ fn help_teaches_by_examples() {
     assert!(folder.prints("--version").starts_with("lobe 0."));
 }
 
-/// What the registries say, in the words of their kinds. Seen to fail with `help` left to clap alone,
+/// The tables of the registries. Seen to fail with `help` left to clap alone,
 /// and with a key's meaning changed.
 #[test]
 fn help_lists_what_scene_files_can_hold() {
@@ -279,7 +278,7 @@ fn an_image_beyond_memory() {
         "render s.toml -o a.png --set film.resolution=[4000000,4000000]",
         &format!("an image of 4000000 x 4000000 pixels needs about 1464843750 MiB {advice}"),
     );
-    // More bytes than 64 bits can count.
+    // A number of bytes beyond 64 bits.
     folder.fails(
         "render s.toml -o a.png --set film.resolution=[4294967295,4294967295]",
         &format!(
@@ -292,7 +291,7 @@ fn an_image_beyond_memory() {
 fn outputs_are_checked_before_rendering() {
     let folder = Folder::new("unwritable");
     fs::create_dir(folder.0.join("folder.png")).unwrap();
-    // Checked later, the good one would be written by then.
+    // With a later check, the first output would exist by now.
     let render = "render s.toml -o good.png -o";
     folder.fails(
         &format!("{render} a.jpg"),

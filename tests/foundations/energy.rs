@@ -104,7 +104,7 @@ fn points(test: u64, batch: u64) -> Vec<Vec2> {
     (0..4096).map(|_| rng.square()).collect()
 }
 
-/// Numbers for as many events.
+/// Sample values for as many events.
 fn choices(test: u64, batch: u64) -> Vec<f32> {
     let mut rng = Rng::new(1000 + test, batch);
     (0..4096).map(|_| rng.f32()).collect()
@@ -210,7 +210,7 @@ fn white_furnace() {
     }
 }
 
-/// No model gives back more than it gets, with the exception above: ρ_hd stays below 1.0152 R, and below
+/// No model reflects more than it receives, with the exception above: ρ_hd stays below 1.0152 R, and below
 /// R from sigma 20 degrees on. Caught: B's 0.45 taken for 0.5.
 #[test]
 fn reflectance_is_bounded() {

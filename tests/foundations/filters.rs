@@ -28,7 +28,7 @@ fn profile(filter: Filter, x: f64) -> f64 {
     match filter {
         Filter::Box => 1.0,
         Filter::Tent { radius } => 1.0 - x.abs() / f64::from(radius),
-        // Flat as it is, the Gaussian is a parabola, up to a factor.
+        // So wide a Gaussian is a parabola, up to a factor.
         Filter::Gaussian { radius, sigma: 1e20 } => square(radius) - x * x,
         Filter::Gaussian { radius, sigma } => {
             let value = |xx: f64| (-xx / (2.0 * square(sigma))).exp();
@@ -38,6 +38,7 @@ fn profile(filter: Filter, x: f64) -> f64 {
             let w = PI * x / f64::from(radius);
             0.35875 + 0.48829 * w.cos() + 0.14128 * (2.0 * w).cos() + 0.01168 * (3.0 * w).cos()
         }
+        _ => panic!("{filter:?} has no formula here"),
     }
 }
 
@@ -48,7 +49,7 @@ fn moment(filter: Filter, power: i32, a: f64, b: f64, steps: usize) -> f64 {
     (0..steps).map(|i| at(i).powi(power) * profile(filter, at(i)) * step).sum()
 }
 
-/// Where the middle of the filter ends that holds all but a ten-thousandth of a sample.
+/// Half width of the part of the filter that has all but a ten-thousandth of the samples.
 fn extent(filter: Filter) -> f64 {
     match filter {
         Filter::Gaussian { radius, sigma } => f64::from(radius.min(6.5 * sigma)),

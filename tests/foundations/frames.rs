@@ -1,4 +1,4 @@
-//! Shading frames stay orthonormal, whatever they are made from.
+//! Shading frames are orthonormal, for any normal and tangent.
 
 use lobe::geometry::Frame;
 use lobe::glam::{DMat3, DVec3, Vec3};
@@ -16,8 +16,8 @@ fn assert_orthonormal(frame: &Frame, what: &str) {
     assert!((matrix.determinant() - 1.0).abs() < 2e-6, "{what}: {frame:?} is left-handed");
 }
 
-/// Normals that other constructions fail on: the axes, and those around -z where Frisvad's form
-/// divides by almost nothing, among them the two that Duff et al. 2017 name.
+/// Normals at which other constructions fail: the axes, and those around -z where Frisvad's form
+/// divides by almost zero, among them the two that Duff et al. 2017 name.
 fn normals() -> impl Iterator<Item = Vec3> {
     let axes = [Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|n| [n, -n]);
     let zeros =
@@ -95,7 +95,7 @@ fn any_tangent_makes_a_frame() {
     }
 }
 
-/// There and back. Caught: the transpose on one way only.
+/// To local coordinates and back. Caught: the transpose on one way only.
 #[test]
 fn directions_come_back() {
     for trial in 0..200_000 {

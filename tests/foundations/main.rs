@@ -1,4 +1,4 @@
-//! What everything else stands on: sampling, lobes, floats, rays and what is known about a hit.
+//! Foundations: sampling, lobes, floats, rays and surface interactions.
 //!
 //! One program, so that its modules share `common` and link once; `cargo test sampling` and
 //! `cargo test energy` select by the names of modules. Each test says in its comment which break of

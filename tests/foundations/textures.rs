@@ -1,4 +1,4 @@
-//! What counts as a texture, and what a material makes of it.
+//! What implements `Texture`, and how materials store it.
 
 use std::sync::Arc;
 
@@ -49,7 +49,7 @@ fn everything_that_has_a_value_is_a_texture() {
     }
 }
 
-/// A constant is recognised in any clothes, so that its surface is shaded the fast way: shared, behind a
+/// A constant is recognised in any wrapper, so that its surface takes the fast path: shared, behind a
 /// pointer, in a shared material.
 /// Caught: constants looked for by type.
 #[test]

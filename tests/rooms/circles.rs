@@ -7,7 +7,7 @@ use super::imports::Imports;
 /// Files that reach each other, with their shortest circle.
 pub struct Circle<'a> {
     pub files: BTreeSet<&'a str>,
-    /// Ends with the file that it starts from.
+    /// The shortest circle; its last element is the first again.
     pub shortest: Vec<&'a str>,
 }
 

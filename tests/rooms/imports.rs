@@ -1,31 +1,31 @@
-//! Which file takes what from which other file.
+//! Imports between files.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::modules::{Files, Module, modules};
 
-/// From one file to another: names with their lines.
+/// Imports from one file to another: names with their lines.
 pub type Imports = BTreeMap<(String, String), BTreeSet<String>>;
 
-/// What one crate's files take from each other, and from the library `lobe` if they are another crate's.
+/// The imports between the files of one crate, and from the library `lobe` if it is another crate.
 #[derive(Default)]
 pub struct Found {
     pub imports: Imports,
-    /// What files of the library take from its root by a name that is no module: `file:line name`.
+    /// Names that files of the library take from its root and that are no modules: `file:line name`.
     pub through_the_door: BTreeSet<String>,
 }
 
-/// A crate, and the library that it knows as `lobe`.
+/// A crate, and the library `lobe` if it is another one.
 struct Crate<'a> {
     modules: Vec<Module>,
     lobe: Option<&'a Crate<'a>>,
 }
 
-/// Where a path leads to.
+/// The target of a path.
 #[derive(Clone, Copy)]
 enum Place<'a> {
     Module(&'a Crate<'a>, usize),
-    /// An item that is defined in this file.
+    /// An item, by the file that defines it.
     Item(&'a str),
 }
 
@@ -45,7 +45,7 @@ impl<'a> Crate<'a> {
     fn collect(&'a self, found: &mut Found) {
         for (number, module) in self.modules.iter().enumerate() {
             let uses = module.uses.iter().filter_map(|name| {
-                // A re-export alone is only a sign on the door.
+                // A re-export that the module does not use itself is no import.
                 let is_import = !name.is_public || module.words.contains(&name.name);
                 is_import.then_some((&name.path, name.line))
             });

@@ -1,4 +1,4 @@
-//! The order of the rooms: lower rooms do not know upper ones, and no two files import each other.
+//! The order of the modules: no import goes from a lower room to a higher one, and no two files import each other.
 //!
 //! An import is a `use` or a path in the code, from one file of `src/` to the file that defines the item, through
 //! all re-exports on the way. What `#[cfg(test)]` guards does not count, nor do comments and method calls.
@@ -122,7 +122,7 @@ fn no_import_runs_up() {
 }
 
 #[test]
-fn nobody_inside_goes_through_the_door() {
+fn no_import_goes_through_lib_rs() {
     let found = imports(&sources());
     assert!(found.through_the_door.is_empty(), "{:#?}", found.through_the_door);
 }
@@ -187,7 +187,7 @@ fn parents_import_children_that_their_code_uses() {
 }
 
 #[test]
-fn the_door_is_seen() {
+fn imports_through_lib_rs_are_found() {
     let found = imports(&files(&[
         ("src/lib.rs", "mod a; mod b; pub use b::Thing;"),
         ("src/a.rs", "use crate::Thing;\nuse super::Thing as Other;"),
@@ -200,7 +200,7 @@ fn the_door_is_seen() {
 }
 
 #[test]
-fn the_shortest_circle_of_each_group_is_told() {
+fn the_shortest_circle_of_each_group_is_found() {
     let found = imports(&files(&[
         ("src/lib.rs", "mod a; mod b; mod c; mod d; mod e;"),
         ("src/a.rs", "use crate::b::B; pub struct A;"),

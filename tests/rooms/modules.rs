@@ -1,4 +1,4 @@
-//! The modules of a crate: which file each stands in, what it declares and what it names.
+//! The modules of a crate: the file of each, its declarations and the paths in it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,7 +26,7 @@ pub struct Module {
 
 /// One name of a `use`.
 pub struct Use {
-    /// What the name is here; `*` for all names of a module.
+    /// The name in this module; `*` for all names of a module.
     pub name: String,
     pub path: Vec<String>,
     /// Whether it is a re-export.
@@ -34,7 +34,7 @@ pub struct Use {
     pub line: usize,
 }
 
-/// All modules that are reached from `root`, which comes first. What stands behind `#[cfg(test)]` is left out.
+/// All modules reachable from `root`, which comes first, without items behind `#[cfg(test)]`.
 pub fn modules(files: &Files, root: &str) -> Vec<Module> {
     let folder = root.rsplit_once('/').map_or("", |(folder, _)| folder).to_owned();
     let mut modules = vec![Module { file: root.to_owned(), folder, ..Module::default() }];
@@ -46,7 +46,7 @@ pub fn modules(files: &Files, root: &str) -> Vec<Module> {
 fn read(files: &Files, modules: &mut Vec<Module>, module: usize) {
     let tokens = tokens(&files[&modules[module].file]);
     let text = |i: usize| tokens.get(i).map_or("", |token| token.text.as_str());
-    // Modules that are open, and how many braces were open before each.
+    // Open modules, each with the number of braces that were open before it.
     let (mut open, mut depth) = (vec![(module, 0)], 0);
     let mut i = 0;
     while i < tokens.len() {
@@ -97,7 +97,7 @@ fn is_test(tokens: &[Token]) -> bool {
     )
 }
 
-/// The place after the item that starts at `i` with its attributes.
+/// The index after the item that starts at `i` with its attributes.
 fn end_of_item(tokens: &[Token], mut i: usize) -> usize {
     let mut depth = 0;
     while i < tokens.len() {
@@ -147,7 +147,7 @@ fn is_definition(word: &str, next: &str) -> bool {
     (defines.contains(&word) && is_word(next)) || (word == "macro_rules" && next == "!")
 }
 
-/// Adds the path that starts at `i`, and returns the place after it.
+/// Adds the path that starts at `i`, and returns the index after it.
 fn add_path(tokens: &[Token], mut i: usize, module: &mut Module) -> usize {
     let text = |i: usize| tokens.get(i).map_or("", |token| token.text.as_str());
     let is_start = i == 0 || !matches!(text(i - 1), "::" | ".");
@@ -163,7 +163,7 @@ fn add_path(tokens: &[Token], mut i: usize, module: &mut Module) -> usize {
     i + 1
 }
 
-/// Adds the names of the tree of a `use` that starts at `i` behind `prefix`. Returns the place after it.
+/// Adds the names in the tree of a `use` that starts at `i`, behind `prefix`. Returns the index after it.
 fn add_uses(tokens: &[Token], mut i: usize, prefix: Vec<String>, uses: &mut Vec<Use>) -> usize {
     let text = |i: usize| tokens.get(i).map_or("", |token| token.text.as_str());
     let mut path = prefix;

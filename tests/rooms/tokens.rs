@@ -50,7 +50,7 @@ impl Reader {
         self.skip(end.len());
     }
 
-    /// The next token, empty for what is left out; `None` at the end.
+    /// The next token, empty for what is skipped; `None` at the end.
     fn next(&mut self) -> Option<String> {
         let c = *self.rest.get(self.at)?;
         let mut text = String::new();
@@ -119,7 +119,7 @@ impl Reader {
         ""
     }
 
-    /// What follows a prefix such as `r` or `b`, if it is a string or a character.
+    /// The string or character after a prefix such as `r` or `b`.
     fn skip_string_after(&mut self, prefix: &str) -> bool {
         let is_raw = matches!(prefix, "r" | "br" | "cr");
         let hashes = (0..).take_while(|&i| self.peek(i) == '#').count();

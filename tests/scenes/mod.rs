@@ -1,4 +1,4 @@
-//! Scenes and samplers that several tests render.
+//! Scenes and samplers shared by several tests.
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use lobe::sampling::{SampleId, Sampler, SamplerKind};
 use lobe::scene::SceneBuilder;
 use lobe::{FilmSettings, MatteMaterial, PerspectiveSettings, Scene, TriangleMesh, View};
 
-/// One sample in the middle of each pixel, so that a closed form can say what it has to be.
+/// One sample in the middle of each pixel, so that a closed form gives its value.
 pub struct Middle;
 
 impl Sampler for Middle {
@@ -45,7 +45,7 @@ pub fn lumpy_ball(rows: u32) -> TriangleMesh {
     star(rows, |theta, phi| 1.0 + 0.1 * (5.0 * theta).sin() * (7.0 * phi).cos())
 }
 
-/// A body by its radius in the direction of polar angle and azimuth.
+/// A body, by its radius in the direction of polar angle and azimuth.
 fn star(rows: u32, radius: impl Fn(f32, f32) -> f32) -> TriangleMesh {
     let columns = 2 * rows;
     let point = |row: u32, column: u32| {
@@ -81,12 +81,12 @@ pub fn chapter_camera() -> PerspectiveSettings {
     }
 }
 
-/// What the chapter's camera sees.
+/// A view through the chapter's camera.
 pub fn chapter_view(resolution: UVec2) -> View {
     view(&chapter_camera(), resolution)
 }
 
-/// What a camera sees on a film without crop, with a box filter.
+/// A view on a film without crop, with a box filter.
 pub fn view(camera: &PerspectiveSettings, resolution: UVec2) -> View {
     View::perspective(camera, FilmSettings::new(resolution.x, resolution.y)).unwrap()
 }
@@ -96,7 +96,7 @@ pub fn any(integrator: impl Integrator + 'static) -> Arc<dyn Integrator> {
     Arc::new(integrator)
 }
 
-/// Settings with so many independent samples.
+/// Settings with this number of independent samples.
 pub fn independent(spp: u32, integrator: impl Integrator + 'static) -> RenderSettings {
     let sampler =
         SamplerSettings { kind: SamplerKind::INDEPENDENT, spp, ..SamplerSettings::default() };

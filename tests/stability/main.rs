@@ -1,5 +1,5 @@
-//! The measurements behind the stability charts, with few trials: that ours keeps its stored bounds, and that each
-//! chart has a place where a usual method fails and ours does not.
+//! The measurements of the stability charts, with few trials: ours keeps its stored bounds, and in each chart there is a
+//! parameter at which a common method fails and ours does not.
 
 #[path = "../../src/bin/lobe/stability/mod.rs"]
 mod stability;
@@ -8,8 +8,8 @@ mod ray_origins;
 
 use stability::sweep::Sweep;
 
-/// Every sweep, with a hundredth of the usual trials: all of what the page needs is there, ours keeps its bounds,
-/// and wins somewhere. Seen to fail with usual methods in the place of ours.
+/// Every sweep, with a hundredth of the usual trials: the page has all it needs, ours keeps its bounds, and wins
+/// somewhere. Seen to fail with usual methods in the place of ours.
 #[test]
 fn ours_keeps_its_bounds_and_wins_somewhere() {
     let mut begun = Vec::new();
@@ -36,7 +36,7 @@ fn ours_keeps_its_bounds_and_wins_somewhere() {
             assert_eq!(method.name.ends_with("(ours)"), method.is_ours, "{name}: {}", method.name);
         }
         assert_eq!(sweep.broken(), [], "{name}");
-        // Of a lens cut by an edge the page says so.
+        // The page says that no method fails on a lens cut by an edge.
         assert_eq!(sweep.won().is_empty(), name == "disks-edge", "{name}");
     }
 }

@@ -1,4 +1,4 @@
-//! The trials of ray origins, with few rays.
+//! The measurements of ray origins, with few rays.
 //!
 //! Truth: the definitions at the head of `measure.rs`, and the constants of Waechter and Binder 2019.
 
@@ -12,8 +12,8 @@ use crate::stability::ray_origins::placement::Placement;
 
 const RAYS: u32 = 300;
 
-/// The crate's rays never hit what they left, at any scale and distance. The control does, so the trials catch
-/// failures; and at the origin it loses no contact, so the truth asks for nothing that cannot be had.
+/// The crate's rays never hit the surface they leave, at any scale and distance. The control does, so the trials can
+/// detect failures. At the origin the control loses no contact, so the truth counts only contacts that can be found.
 #[test]
 fn error_bounds_have_no_self_hits() {
     let powers = |from: i32, to: i32| (from..=to).map(|power| 10.0_f64.powi(power));

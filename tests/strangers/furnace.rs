@@ -16,7 +16,7 @@ use lobe::{PerspectiveSettings, RenderOptions, Scene, Spectrum, render};
 use crate::scenes::{ball, view};
 use crate::statistics::{assert_mean, bands};
 
-/// What a sample of the lobe says of its event.
+/// The event that a sample of the lobe reports.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Writes {
     /// The truth.
@@ -127,9 +127,9 @@ fn standard_error(picture: &Picture) -> f64 {
     red.iter().sum::<f64>().sqrt() / red.len() as f64
 }
 
-/// Whatever the samples of a lobe say, mirror and glass give 1, with and without roulette, with the little noise
-/// that roulette makes of Fresnel's shares. Told that it reflects, an event of glass has no index, which the
-/// counter tells and which costs noise.
+/// Whatever the samples of a lobe report, mirror and glass give 1, with and without roulette, and with no more noise
+/// than roulette on Fresnel's reflectances makes. An event of glass that is reported as a reflection has no index. That
+/// is counted, and costs noise.
 /// Caught: flags of samples passed on, with which reflections take part in the index (standard error 80 times as
 /// large); a delta event called diffuse weighed against the light's own samples; the index left out of roulette.
 #[test]
@@ -158,7 +158,7 @@ fn furnaces_are_white_whatever_flags_are_written() {
     }
 }
 
-/// A material whose frame leans over, without a word to the interaction.
+/// A material whose frame is tilted, without setting it in the interaction.
 struct Leaning {
     mirror: bool,
 }
@@ -177,7 +177,7 @@ impl Material for Leaning {
     }
 }
 
-/// A frame of the material's own makes no light: no sample is brighter than the furnace.
+/// A frame of the material's own gains no energy: no sample is brighter than the furnace.
 /// Caught: the cosine of the interaction's normal (mirror: mean 3.07, largest pixel 880).
 #[test]
 fn own_frames_gain_no_energy() {
@@ -187,8 +187,8 @@ fn own_frames_gain_no_energy() {
             assert_eq!(rejected, 0);
             let brightest =
                 picture.color.iter().map(|pixel| pixel.max_component()).fold(0.0, f32::max);
-            // Up to 64 reflections are rounded, to some 2e-7 each. Samples of the light are weighed against
-            // those of the surface, and scatter about 1.
+            // Up to 64 reflections are rounded, by some 2e-7 each. Multiple importance sampling scatters
+            // around 1.
             let limit = if strategy == LightStrategy::Auto || mirror { 1.0 + 5e-5 } else { 1.3 };
             assert!(brightest <= limit, "mirror {mirror}, {strategy:?}: {brightest}");
             let mean = bands(&picture).iter().map(|band| band.0).sum::<f64>()

@@ -9,7 +9,7 @@ use lobe::scene::SceneBuilder;
 use crate::scenes::{ball_over_floor, chapter_view, independent};
 use crate::statistics::{assert_alike, bands, picture};
 
-/// A point light that tells no power, or this one.
+/// A point light that returns the given power, which may be unknown.
 struct Shy {
     light: PointLight,
     told: Option<f32>,
@@ -35,7 +35,7 @@ fn lit(lights: impl Fn(SceneBuilder) -> SceneBuilder) -> Vec<(f64, f64)> {
     bands(&picture(lights(ball_over_floor()), &chapter_view(UVec2::splat(24)), &settings))
 }
 
-/// A light is found whatever power it tells: beside another one the picture is the sum of both.
+/// A light is found whatever its `power` returns: next to another light the picture is the sum of both.
 /// Caught: lights without power left out of the choice (0.7956 alone, 0 beside another one).
 #[test]
 fn lights_of_unknown_power_are_found() {

@@ -1,5 +1,5 @@
-//! What another crate brings, through the whole renderer: lobes, materials, textures and lights that are right, and
-//! such that write something wrong where that must not cost light.
+//! Lobes, materials, textures and lights of another crate, through the whole renderer. Some are correct, some report
+//! something wrong that must not cost light.
 
 #[path = "../scenes/mod.rs"]
 mod scenes;

@@ -1,4 +1,4 @@
-//! A hit tells where it is, so that emission, reflectance and textures may differ by shape, triangle and point.
+//! Hits carry shape, triangle and barycentrics, so that emission, reflectance and textures may vary with them.
 
 use std::f32::consts::FRAC_1_PI;
 
@@ -13,7 +13,7 @@ use lobe::{PerspectiveSettings, RenderOptions, Scene, Spectrum, TriangleMesh, re
 
 use crate::scenes::{independent, view};
 
-/// Four triangles in the plane z = 1, each a quarter of the picture's width: a fan that is easy to look at.
+/// Four triangles in the plane z = 1, each a quarter of the picture's width: a fan.
 fn strips() -> TriangleMesh {
     let column = |i: u32| -1.0 + 0.5 * i as f32;
     let mut mesh = TriangleMesh::default();
@@ -43,7 +43,7 @@ fn value(shape: u32, triangle: u32) -> f32 {
     0.1 * (1 + triangle / 2) as f32 + 0.05 * shape as f32
 }
 
-/// Emits by triangle, and is found by rays alone.
+/// Emits by triangle, and is found by BSDF sampling only.
 struct ByTriangle;
 
 impl Light for ByTriangle {
@@ -91,10 +91,10 @@ fn pixels(scene: Scene, strategy: LightStrategy) -> Vec<[f32; 3]> {
     rendered.picture.color.iter().map(|color| color.to_array()).collect()
 }
 
-/// A light that a shape is hears the shape, the triangle, barycentrics and texture coordinates of the hit.
-/// Caught: the number of the shape left at 0; the triangle's number that of the tree.
+/// The light of a shape gets shape, triangle, barycentrics and texture coordinates of the hit.
+/// Caught: the index of the shape left at 0; the triangle's index that of the tree.
 #[test]
-fn lights_hear_where_they_were_hit() {
+fn lights_get_the_point_that_was_hit() {
     for strategy in [LightStrategy::Auto, LightStrategy::Mis, LightStrategy::Bsdf] {
         let scene = Scene::builder()
             .material("white", lobe::MatteMaterial::new([0.5; 3]))
@@ -113,7 +113,7 @@ fn lights_hear_where_they_were_hit() {
     }
 }
 
-/// A material can differ by face.
+/// A material can vary by triangle.
 /// Caught: as above.
 #[test]
 fn materials_can_differ_by_face() {

@@ -1,4 +1,4 @@
-//! Images whose every pixel is known.
+//! Images with a closed form for every pixel.
 
 use std::f64::consts::PI;
 
@@ -51,7 +51,7 @@ fn a_plane_under_a_distant_light() {
         Scene::builder()
             .material("plane", MatteMaterial::new([0.5, 0.25, 1.0]))
             .shape("plane", floor(0.0, 10.0), "plane")
-            // Behind the plane and in front of it, out of sight and out of the light's way.
+            // Behind the plane, and in front of it, outside the view and away from the light.
             .shape("below", floor(-1.0, 10.0), "plane")
             .light(DistantLight::new(towards, Spectrum::splat(3.0)).unwrap()),
         &view(&from_above(2.0, 60.0), UVec2::splat(16)),
@@ -65,10 +65,10 @@ fn a_plane_under_a_distant_light() {
     }
 }
 
-/// A convex white body under a sky of radiance 1 is as bright as the sky: no pixel can be told from another. Seen to
+/// A convex white body under a sky of radiance 1 is as bright as the sky, so it is invisible. Seen to
 /// fail with the sky's pdf twice too large, and with paths that see the sky after `max_depth` reflections left out.
 #[test]
-fn a_white_body_is_lost_before_the_sky() {
+fn a_white_body_is_invisible_under_the_sky() {
     for strategy in STRATEGIES {
         for max_depth in [1, 4] {
             let camera =
@@ -123,7 +123,7 @@ fn a_furnace_adds_up_all_reflections() {
     }
 }
 
-/// A lamp that fills the left half of the image, seen through each filter: a pixel is as bright as the share of its
+/// A lamp that fills the left half of the image, seen through each filter: a pixel's value is the fraction of its
 /// filter to the left of the middle, here by the sum of a million values. Seen to fail with the filter left out.
 #[test]
 fn a_filter_blurs_an_edge() {

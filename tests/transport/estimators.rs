@@ -1,4 +1,4 @@
-//! Every integrator, sampler and strategy that claims to be unbiased agrees with every other.
+//! All integrators, samplers and strategies that are unbiased agree.
 
 use lobe::glam::{UVec2, Vec3};
 use lobe::integrator::{DirectIntegrator, Integrator, PathIntegrator};
@@ -21,7 +21,7 @@ const STRATEGIES: [LightStrategy; 4] =
     [LightStrategy::Auto, LightStrategy::Mis, LightStrategy::Light, LightStrategy::Bsdf];
 
 /// All kinds of lights at once: a point, a distant one, the sky, a rectangle and a glowing ball. None is so small or
-/// so weak that a strategy would find it once in a hundred samples: the means would be far from normal.
+/// so weak that a strategy would find it only once in a hundred samples: the means would be far from normal.
 fn scene() -> SceneBuilder {
     let lamp = TriangleMesh::parallelogram(Vec3::new(1.2, 1.5, -1.0), Vec3::X * 2.0, Vec3::Z * 1.5);
     let mut moon = ball(6);
@@ -29,7 +29,7 @@ fn scene() -> SceneBuilder {
     moon.normals = ball(6).positions;
     let glow = |l: f32, two_sided| Emission { radiance: Spectrum::new(l, l, 0.5 * l), two_sided };
     ball_over_floor()
-        // Rough, and with normals of its own: what is not plain takes another way through the code.
+        // Rough, and with vertex normals: surfaces that are not flat Lambertian take another path through the code.
         .material("red", MatteMaterial::new([0.8, 0.1, 0.2]).with_sigma(20.0))
         .lamp("lamp", lamp, glow(4.0, true))
         .glowing_shape("moon", moon, "red", glow(5.0, false))
@@ -44,7 +44,7 @@ fn index(kind: SamplerKind) -> u64 {
 }
 
 fn estimate(integrator: impl Integrator + 'static, kind: SamplerKind) -> Vec<(f64, f64)> {
-    // The reference has a seed of its own: the same samples would hide what they have in common.
+    // The reference has another seed: equal samples would hide errors that both share.
     let seed = 100 * index(kind);
     let sampler = SamplerSettings { kind, spp: 2048, seed, replicates: 64 };
     bands(&picture(
@@ -54,7 +54,7 @@ fn estimate(integrator: impl Integrator + 'static, kind: SamplerKind) -> Vec<(f6
     ))
 }
 
-/// Direct light, by both integrators. Seen to fail with the power heuristic's arguments exchanged, at plain
+/// Direct light, by both integrators. Seen to fail with the power heuristic's arguments exchanged, at flat Lambertian
 /// surfaces and at others.
 #[test]
 fn direct_light_has_one_value() {
@@ -83,7 +83,7 @@ fn paths_have_one_value() {
     }
 }
 
-/// All samplers, with the strategy that suits each light.
+/// All samplers, with the strategy [`LightStrategy::Auto`].
 #[test]
 fn all_samplers_give_one_value() {
     let auto = PathIntegrator::new(4);
@@ -93,9 +93,9 @@ fn all_samplers_give_one_value() {
     }
 }
 
-/// Normals that lean far from their surfaces, those of a ball on an octahedron, tilted towards the sky besides. Seen to
+/// Shading normals far from the geometric ones, those of a ball on an octahedron, tilted towards the sky as well. Seen to
 /// fail with a Bsdf that reflects light from below the shading normal's horizon, which
-/// light sampling finds and no lobe draws.
+/// light sampling finds and no lobe samples.
 #[test]
 fn leaning_normals_have_one_value() {
     let octahedron = || TriangleMesh { normals: ball(2).positions, ..ball(2) };

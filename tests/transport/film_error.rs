@@ -1,4 +1,4 @@
-//! The film states its own error: whether it is true.
+//! Whether the error that the film states is the true one.
 
 use lobe::glam::{UVec2, Vec3};
 use lobe::integrator::PathIntegrator;
@@ -13,8 +13,8 @@ use crate::statistics::{bands, picture};
 
 const SEEDS: u64 = 32;
 
-/// The standard error that the film claims over the true one, which the scatter of 32 seeds tells. Over all
-/// bands of 32 × 32 pixels, the ratio itself is known to 1 %. Seen to fail with
+/// The standard error that the film states, divided by the true one from the scatter of 32 seeds. Over all
+/// bands of 32 × 32 pixels, the ratio is known to 1 %. Seen to fail with
 /// stratified samples taken for independent ones, and with the variance of a set in place of that of the mean.
 #[test]
 fn the_claimed_error_is_the_true_one() {

@@ -1,6 +1,6 @@
-//! Light transport: images whose truth is a formula, and estimators that have to agree.
+//! Light transport: images compared with formulas, and unbiased estimators compared with each other.
 //!
-//! Statistics use the error that the film itself reports. Where a test was seen to catch a break of the code, its
+//! Statistics use the error that the film itself states. If a test was seen to catch a break of the code, its
 //! comment says which.
 
 #[path = "../scenes/mod.rs"]

@@ -1,4 +1,4 @@
-//! A thousand scenes that nobody would build: whatever stands where, every sample is finite.
+//! A thousand random scenes, most of them absurd: every sample is finite.
 
 use lobe::glam::{UVec2, Vec3};
 use lobe::integrator::{DirectIntegrator, PathIntegrator};
@@ -175,7 +175,7 @@ fn no_sample_of_a_shipped_scene_is_not_finite() {
     }
 }
 
-/// Not finite, refused by a Bsdf, or negative: none of a thousand scenes has such a sample.
+/// None of a thousand scenes has a sample that is not finite, rejected by a Bsdf, or negative.
 #[test]
 fn no_sample_is_not_finite() {
     let mut lit = 0;
@@ -188,6 +188,6 @@ fn no_sample_is_not_finite() {
         assert!(values().all(|value| value >= 0.0), "scene {trial}");
         lit += u32::from(values().any(|value| value > 0.0));
     }
-    // Most of them show something: the sweep looks at light, and not into the dark.
+    // Most of the scenes are lit: a black picture would test nothing.
     assert!(lit > 600, "only {lit} scenes are not black");
 }

@@ -1,4 +1,4 @@
-//! The size of a scene and where it stands do not matter.
+//! The scale and the position of a scene do not matter.
 
 use lobe::glam::{UVec2, Vec3};
 use lobe::image::Picture;
@@ -12,8 +12,8 @@ use lobe::{MatteMaterial, PointLight, RenderSettings, Scene, Spectrum, TriangleM
 use crate::scenes::{chapter_camera, floor, lumpy_ball, view};
 use crate::statistics::{assert_alike, bands, picture};
 
-/// Ball, floor and lights, each coordinate p brought to scale · p + shift. Vertices lie on a grid of 2⁻⁹, so that
-/// a shift by 1e4 rounds none of them: what differs is what the renderer makes of them.
+/// Ball, floor and lights, each coordinate p mapped to scale · p + shift. Vertices lie on a grid of 2⁻⁹, so that
+/// a shift by 1e4 rounds none of them: any difference comes from the renderer.
 fn rendered(scale: f32, shift: f32, seed: u64) -> Picture {
     let place = |p: Vec3| p * scale + Vec3::splat(shift);
     let placed = |mut mesh: TriangleMesh| {

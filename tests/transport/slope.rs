@@ -43,7 +43,7 @@ fn render(kind: SamplerKind, spp: u32, seed: u64) -> Vec<(f64, f64)> {
     bands(&picture(scene, &chapter_view(UVec2::splat(24)), &settings))
 }
 
-/// Independent samples fall with -0.5, Sobol's by more.
+/// The error of independent samples falls with the power -0.5, that of Sobol points faster.
 #[test]
 fn sobol_converges_faster_under_the_sky() {
     let reference = render(SamplerKind::SOBOL, 1 << 15, 999);

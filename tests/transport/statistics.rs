@@ -1,4 +1,4 @@
-//! What images say about each other and about numbers, with the error that their film states.
+//! Comparisons of images with each other and with known values, by the errors that their films state.
 
 use lobe::image::Picture;
 use lobe::scene::SceneBuilder;
@@ -22,7 +22,7 @@ pub fn bands(picture: &Picture) -> Vec<(f64, f64)> {
 }
 
 /// Asserts that the mean of the whole picture is `expected`, within 5 of the standard errors that the
-/// film states, or what is left of `expected` in f32.
+/// film states, or within the rounding of f32.
 #[track_caller]
 pub fn assert_mean(picture: &Picture, expected: f64, what: &str) {
     let bands = bands(picture);
@@ -59,8 +59,8 @@ pub fn assert_alike(a: &[(f64, f64)], b: &[(f64, f64)], what: &str) {
     assert!(off <= 4.0, "{what}: the means differ by {off} standard errors");
 }
 
-/// The standard error of the sum of all bands. Pixels are independent of each other, the three bands of one
-/// are not: their errors may add up.
+/// The standard error of the sum of all bands. Pixels are independent of each other, but the three bands of a pixel are
+/// not: their errors may add up.
 fn band_errors(bands: &[(f64, f64)]) -> f64 {
     let of_band = |band| bands.iter().skip(band).step_by(3).map(|b| b.1).sum::<f64>().sqrt();
     (0..3).map(of_band).sum()

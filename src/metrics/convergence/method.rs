@@ -20,6 +20,7 @@ type Render<'a> = dyn Fn(u32, u64) -> Result<Rendered, RenderError> + 'a;
 
 /// Why a run failed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RunError {
     /// The rendering failed.
     #[error(transparent)]

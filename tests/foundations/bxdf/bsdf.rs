@@ -1,4 +1,4 @@
-//! The sum of lobes: which are asked, how one is chosen, and which side light is on.
+//! The sum of lobes: filtering by flags, selection, and the side of light.
 
 use std::f32::consts::FRAC_1_PI;
 
@@ -21,7 +21,7 @@ fn flat() -> Bsdf<'static> {
     Bsdf::new(Frame::from_normal(Vec3::Z), Vec3::Z)
 }
 
-/// A lobe answers when all of its flags are asked for. Caught: `intersects` in place of `contains`.
+/// A lobe matches if all of its flags are in the filter. Caught: `intersects` in place of `contains`.
 #[test]
 fn flags_choose_lobes() {
     let through = Through(0.5);
@@ -64,7 +64,7 @@ fn flags_choose_lobes() {
     assert_eq!(only(F::TRANSMISSION), Spectrum::splat(0.5 * FRAC_1_PI));
 }
 
-/// And counted. Caught: a refusal that is not counted.
+/// A lobe beyond the eighth is refused and counted. Caught: a refusal that is not counted.
 #[test]
 fn a_ninth_lobe_is_refused() {
     let mut bsdf = flat();
@@ -84,7 +84,7 @@ fn a_ninth_lobe_is_refused() {
 /// Caught: the mirror's pdf of 1 not multiplied by its share; the mean density taken for a specular sample too, which
 /// is 0; shares that are equal, and in proportion to the estimates alone.
 #[test]
-fn delta_lobes_take_part() {
+fn delta_lobes_are_selected_by_their_share() {
     [1.0, 0.25, 0.0].into_iter().for_each(a_delta_lobe_takes_part);
 }
 
@@ -149,7 +149,7 @@ fn both_normals_have_to_agree() {
         let frame = Frame::from_normal(ns);
         let (wo, wi) = (rng.direction(), rng.direction());
         let (local_wo, local_wi) = (frame.to_local(wo), frame.to_local(wi));
-        // On which side of a plane a direction within rounding of it lies is anyone's guess.
+        // Skipped: rounding decides on which side of a plane a nearly parallel direction lies.
         let heights = [wo.dot(ng), wi.dot(ng), local_wo.z, local_wi.z];
         if heights.iter().any(|height| height.abs() < 1e-6) {
             continue;

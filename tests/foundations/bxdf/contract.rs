@@ -1,4 +1,4 @@
-//! What the models promise for each pair of directions.
+//! Contracts of the models, for each pair of directions.
 
 use lobe::Spectrum;
 use lobe::bxdf::{BxDF, LambertianReflection, OrenNayar, ScaledBxDF};
@@ -105,7 +105,7 @@ fn extremes_stay_finite() {
                     assert!(pdf >= 0.0 && pdf.is_finite(), "{name}: pdf({wo}, {wi}) = {pdf}");
                 }
                 for u in edges.iter().flat_map(|&x| edges.map(|y| Vec2::new(x, y))) {
-                    // What a Bsdf hands to lobes that do not look at uc.
+                    // A Bsdf passes NaN to lobes that do not use uc.
                     let Some(sample) = lobe.sample_f(wo, f32::NAN, u) else { continue };
                     assert!(sample.f.is_valid() && sample.wi.is_finite(), "{name}: {wo}, {u}");
                     assert!(sample.pdf > 0.0 && sample.pdf.is_finite(), "{name}: {wo}, {u}");

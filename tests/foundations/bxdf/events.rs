@@ -1,7 +1,7 @@
-//! Events: their flags and index, how lobes are drawn, and what a stranger can get wrong in a lobe.
+//! Events: flags and index, selection among lobes, and errors of custom lobes.
 
 use lobe::Spectrum;
-use lobe::bxdf::{Bsdf, BxDF, BxdfFlags, BxdfSample, LambertianReflection, Lobe};
+use lobe::bxdf::{Bsdf, BxDF, BxdfFlags, BxdfSample, LambertianReflection, Lobe, ScaledBxDF};
 use lobe::geometry::{Frame, reflect, refract};
 use lobe::glam::{Vec2, Vec3};
 
@@ -11,7 +11,7 @@ use crate::common::stats::assert_mean;
 
 const SIDES: BxdfFlags = BxdfFlags::REFLECTION.union(BxdfFlags::TRANSMISSION);
 
-/// What a lobe may write into its samples, right and wrong.
+/// Flags and index that a lobe may report in its samples, right and wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Writes {
     Events,
@@ -62,8 +62,8 @@ fn flat() -> Bsdf<'static> {
     Bsdf::new(Frame::from_normal(Vec3::Z), Vec3::Z)
 }
 
-/// Whatever a lobe writes, an event's side follows from its directions, a reflection has no index, and a delta
-/// lobe has no diffuse events. Only the index of a refraction has to be told, and is missed if it is not.
+/// Whatever a lobe reports, an event's side follows from its directions, a reflection has no index, and a delta
+/// lobe has no diffuse events. Only the index of a refraction is needed from the lobe, and counted if it is missing.
 /// Caught: the lobe's own flags passed on; the index kept for reflections; a missing index not counted.
 #[test]
 fn events_are_what_their_directions_say() {
@@ -98,7 +98,7 @@ fn events_are_what_their_directions_say() {
     }
 }
 
-/// A mirror of reflectance 1 that tells this as its albedo.
+/// A mirror of reflectance 1 that returns this albedo estimate.
 #[derive(Clone, Copy)]
 struct Mirror(f32);
 
@@ -124,8 +124,8 @@ impl BxDF for Mirror {
     }
 }
 
-/// Nine tenths of the probability follow the albedos that lobes tell, and one tenth is shared alike, so that
-/// whatever is told, right, wrong or no number, all of the light is found: the mean of f |cos θ| / pdf is the
+/// Nine tenths of the selection probability follow the albedo estimates, and one tenth is uniform. So
+/// whatever the estimates are, right, wrong or NaN, no light is lost: the mean of f |cos θ| / pdf is the
 /// sum of the albedos, and pdf and f are those of all lobes.
 /// Caught: shares in proportion alone, which lose the mirror that tells 0; estimates that are not brought into
 /// [0, 1]; a share that the mean density does not use.
@@ -177,7 +177,7 @@ fn lobes_are_drawn_by_albedo_and_none_is_lost() {
     }
 }
 
-/// What `uc` is handed on is uniform again within the lobe that it chose: three lobes that show it.
+/// The remainder of `uc` is uniform again within the selected lobe, as three lobes show.
 /// Caught: `uc` handed on as it came; the rest divided by the wrong share.
 #[test]
 fn the_rest_of_uc_is_uniform() {
@@ -219,10 +219,10 @@ fn the_rest_of_uc_is_uniform() {
     }
 }
 
-/// A surface asks for `uc` only where something looks at it.
+/// `uses_uc` is true only if a lobe or the selection uses it.
 /// Caught: always true, and always false.
 #[test]
-fn uc_is_asked_for_where_it_is_used() {
+fn uses_uc_is_true_only_if_something_uses_it() {
     let white = LambertianReflection::new(Spectrum::WHITE);
     let (mirror, glass) = (Mirror(1.0), Glass(Writes::Events));
     let of = |lobes: &[Lobe<'static>]| {
@@ -278,4 +278,14 @@ fn cosines_come_from_the_frame() {
         let light = sample.f * (bsdf.abs_cos_theta(sample.wi) / sample.pdf);
         assert!((light.to_array()[0] - 1.0).abs() < 1e-3, "trial {trial}: {light:?}");
     }
+}
+
+/// A dimmed lobe is drawn less often.
+/// Caught: the scale left out of the estimate.
+#[test]
+fn scaled_lobes_scale_their_estimate() {
+    let grey = LambertianReflection::new(Spectrum::splat(0.5));
+    let dimmed = ScaledBxDF::new(grey, Spectrum::new(0.25, 0.5, 0.125));
+    assert_eq!(dimmed.albedo_estimate(view(0.5)), 0.25);
+    assert_eq!(dimmed.uses_uc(), grey.uses_uc());
 }

@@ -1,4 +1,4 @@
-//! The one guard: what lobes must not be asked, and what must not leave the sum.
+//! The checks of `Bsdf`: calls that lobes must not get, and results that must not be returned.
 
 use lobe::Spectrum;
 use lobe::bxdf::{Bsdf, BxDF, BxdfFlags, Lobe, OrenNayar};
@@ -41,7 +41,7 @@ fn bad_values_become_black() {
     }
 }
 
-/// Densities that are none give no sample, and are counted too. Caught: `pdf` without its guard, and
+/// Invalid densities give no sample, and are counted too. Caught: `pdf` without its guard, and
 /// the guards of both without the count.
 #[test]
 fn bad_densities_give_no_sample() {
@@ -61,7 +61,7 @@ fn bad_densities_give_no_sample() {
     }
 }
 
-/// A direction that is none does not leave either. Caught: no look at `wi`.
+/// Invalid directions are not returned either. Caught: no look at `wi`.
 #[test]
 fn bad_directions_give_no_sample() {
     for wi in [Vec3::NAN, Vec3::new(0.0, f32::INFINITY, 0.0)] {
@@ -88,7 +88,7 @@ fn overflow_of_a_real_model_is_caught() {
     assert_eq!(bsdf.rejected(), 1);
 }
 
-/// No lobe is asked about a `wo` that lies exactly along the surface, +0 or -0, in any frame.
+/// No lobe is called with a `wo` exactly parallel to the surface, +0 or -0, in any frame.
 /// Caught: the check left out of each of the four questions.
 #[test]
 fn directions_along_the_surface_reach_no_lobe() {
@@ -99,7 +99,7 @@ fn directions_along_the_surface_reach_no_lobe() {
         let along = Vec3::new(n.y, n.z, n.x);
         for wo in [along, -along] {
             let all = BxdfFlags::all();
-            // Which side wi counts for is open, so that both are asked for.
+            // The side of wi is undefined here, so both are tested.
             assert!(bsdf.f(wo, n, all).is_black() && bsdf.f(wo, -n, all).is_black(), "{n}, {wo}");
             assert_eq!(bsdf.pdf(wo, n, all), 0.0, "{n}, {wo}");
             assert!(bsdf.sample_f(wo, UC, U, all).is_none(), "{n}, {wo}");

@@ -1,4 +1,4 @@
-//! Lobes and their sum: what is sampled, what is promised, and what is guarded against.
+//! Lobes and their sum: sampling, contracts, and the checks of results.
 
 mod bsdf;
 mod contract;

@@ -1,4 +1,4 @@
-//! Lobes of the tests' own: what a stranger may put into a `Bsdf`.
+//! Lobes of the tests, as another crate may define them.
 
 use std::f32::consts::{FRAC_1_PI, PI};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -8,7 +8,7 @@ use lobe::bxdf::{Bsdf, BxDF, BxdfFlags, BxdfSample};
 use lobe::glam::{Vec2, Vec3};
 use lobe::sampling::cosine_hemisphere;
 
-/// Anything that scatters, seen in shading coordinates: one lobe, or a whole `Bsdf`.
+/// A scattering function in shading coordinates: one lobe, or a whole `Bsdf`.
 pub trait Scatters {
     fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum;
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32;
@@ -177,7 +177,7 @@ impl BxDF for Delta {
     }
 }
 
-/// Another lobe with nothing but its `f`: everything else is the trait's default.
+/// Wraps a lobe's `f` only: everything else is the trait's default.
 #[derive(Clone, Copy)]
 pub struct Plain<B>(pub B);
 
@@ -190,7 +190,7 @@ impl<B: BxDF> BxDF for Plain<B> {
     }
 }
 
-/// Gives these answers, whatever it is asked.
+/// Returns constant results.
 #[derive(Clone, Copy)]
 pub struct Broken {
     pub f: f32,
@@ -232,7 +232,7 @@ impl BxDF for Broken {
     }
 }
 
-/// Counts how often it is asked.
+/// Counts its calls.
 #[derive(Default)]
 pub struct Counting(AtomicU32);
 

@@ -1,4 +1,4 @@
-//! Meshes to shoot at.
+//! Meshes for rays.
 
 use std::collections::HashMap;
 

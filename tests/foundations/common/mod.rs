@@ -1,4 +1,4 @@
-//! What the tests share.
+//! Shared helpers.
 
 pub mod lobes;
 pub mod meshes;

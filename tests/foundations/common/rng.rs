@@ -1,4 +1,4 @@
-//! The tests' own random numbers, which owe nothing to the crate under test.
+//! Random numbers of the tests, independent of the crate under test.
 
 use lobe::glam::{DVec3, Vec2, Vec3};
 

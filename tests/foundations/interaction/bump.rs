@@ -95,7 +95,7 @@ fn waves_tilt_a_smooth_surface() {
     }
 }
 
-/// Whatever the height, a flat mesh that is lifted as a whole stays as it is. Caught: the displacement
+/// A flat mesh that is displaced by a constant stays as it is, whatever the height. Caught: the displacement
 /// itself for its slope.
 #[test]
 fn a_constant_displacement_changes_nothing_on_a_plane() {
@@ -128,8 +128,8 @@ fn mirrored_texture_coordinates_give_the_same_normal() {
     }
 }
 
-/// A displacement may ask for the normal, which moves along: with d = c n.x, ∂d/∂u is c ∂n.x/∂u. Caught: the
-/// normal of the place moved to made from ∂p/∂u × ∂p/∂v, which on a small mesh is nothing beside ∂n/∂u.
+/// A displacement may depend on the normal, which moves along: with d = c n.x, ∂d/∂u is c ∂n.x/∂u. Caught: the
+/// normal at the shifted point computed from ∂p/∂u × ∂p/∂v, which on a small mesh is nothing beside ∂n/∂u.
 #[test]
 fn a_displacement_may_ask_for_the_normal() {
     struct OfNormal(f32);
@@ -158,9 +158,9 @@ fn a_displacement_may_ask_for_the_normal() {
     }
 }
 
-/// What cannot be used leaves the frame as it is. Caught: a normal of NaN set.
+/// A displacement that is not finite leaves the frame unchanged. Caught: a normal of NaN set.
 #[test]
-fn a_displacement_that_is_none_changes_nothing() {
+fn an_invalid_displacement_changes_nothing() {
     let mesh = plane(1.0, 0.0, 1.0);
     for bad in [f32::NAN, f32::INFINITY] {
         let mut si = SurfaceInteraction::on_triangle(&mesh, 0, [0.2, 0.3, 0.5], Vec3::Z);

@@ -13,7 +13,7 @@ use crate::common::meshes::single;
 
 const B: [f32; 3] = [0.2, 0.3, 0.5];
 
-/// Gives what it is told of the texture coordinates.
+/// A texture that returns a function of the texture coordinates.
 struct OfU<T>(fn(f32) -> T);
 
 impl<T> Texture<T> for OfU<T> {
@@ -95,7 +95,7 @@ fn bumps_reach_the_lobes() {
         assert!(bsdf.frame().n.distance(n) < 1e-3, "{}", bsdf.frame().n);
         assert_eq!(si.shading_n(), bsdf.frame().n);
         assert_eq!(si.n(), Vec3::Z);
-        // Above both the surface and its bumpy look. Above the surface, but below that look; below the surface.
+        // Above the surface and above the bumped plane; above the surface only; below the surface.
         let high = Vec3::new(-0.9, 0.0, 0.1).normalize();
         assert!(!bsdf.f(Vec3::Z, high, BxdfFlags::all()).is_black());
         let low = Vec3::new(0.9, 0.0, 0.1).normalize();

@@ -1,4 +1,4 @@
-//! What is known about a hit, and what materials and textures make of it.
+//! Surface interactions, and what materials and textures compute from them.
 
 mod bump;
 mod matte;
@@ -21,8 +21,8 @@ fn textured(positions: [Vec3; 3], uvs: [Vec2; 3]) -> TriangleMesh {
     }
 }
 
-/// A triangle that is far from degenerate in space and in texture coordinates, which have either
-/// orientation; 10^±8 times as large as a unit, and somewhere within ten times its size.
+/// A triangle that is far from degenerate in space and in texture coordinates. These have either
+/// orientation; the size is 10^±8, and the position within ten times that.
 fn random_triangle(rng: &mut Rng) -> TriangleMesh {
     loop {
         let (size, uv_size) = (rng.coordinate(8.0).abs(), rng.coordinate(3.0).abs());

@@ -10,7 +10,7 @@ use crate::common::meshes::single;
 
 const B: [f32; 3] = [0.2, 0.3, 0.5];
 
-/// The derivatives of what takes these values at the corners, by Cramer's rule in f64.
+/// The derivatives of a linear function with these values at the corners, by Cramer's rule in f64.
 fn solve(values: [Vec3; 3], uvs: [Vec2; 3]) -> [DVec3; 2] {
     let [v0, v1, v2] = values.map(|v| v.as_dvec3());
     let [t0, t1, t2] = uvs.map(|t| t.as_dvec2());
@@ -118,8 +118,8 @@ fn degenerate_texture_coordinates() {
     }
 }
 
-/// Texture coordinates so close to a line that the determinant's rounding decides: what is not taken for
-/// degenerate points the right way, and is of the right length to a factor. Caught: a
+/// Texture coordinates that are collinear up to rounding, so that the rounding of the determinant decides. If they are not
+/// taken for degenerate, the derivative points the right way and has the right length to a factor. Caught: a
 /// check for a determinant of exactly 0, and none.
 #[test]
 fn almost_degenerate_texture_coordinates() {
@@ -147,7 +147,7 @@ fn almost_degenerate_texture_coordinates() {
     assert!(solved > 10_000, "only {solved} were not degenerate");
 }
 
-/// A hit on a surface of another kind says what it was given, and its normal is ∂p/∂u × ∂p/∂v at any
+/// A hit made without a mesh returns what it was given, and its normal is ∂p/∂u × ∂p/∂v at any
 /// size. Caught: a cross product whose square leaves the range of f32.
 #[test]
 fn other_surfaces() {
@@ -180,7 +180,7 @@ fn other_surfaces() {
     assert!(nothing.shading().dpdu.is_finite());
 }
 
-/// The mesh that a hit belongs to is asked for the right triangle. Caught: triangle 0 always.
+/// The hit reads the right triangle of its mesh. Caught: triangle 0 always.
 #[test]
 fn the_right_triangle() {
     let mut mesh = textured([Vec3::ZERO, Vec3::X, Vec3::Y], [Vec2::ZERO, Vec2::X, Vec2::Y]);

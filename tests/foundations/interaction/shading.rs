@@ -72,7 +72,7 @@ fn missing_normals() {
     }
 }
 
-/// What bump mapping sets is what everyone sees, as a unit normal on the geometric one's side. Caught: the shading normal
+/// The shading set by bump mapping is what all methods return, with a unit normal on the geometric one's side. Caught: the shading normal
 /// left as it was; a normal of NaN set; no normalisation; no turning.
 #[test]
 fn shading_can_be_replaced() {

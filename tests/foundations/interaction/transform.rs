@@ -53,7 +53,7 @@ fn outside_stays_outside() {
     }
 }
 
-/// Normals that say "none" keep saying so, and a flattened mesh has no NaN. Caught: 0 / 0.
+/// Zero normals, which mean none, stay zero, and a flattened mesh has no NaN. Caught: 0 / 0.
 #[test]
 fn degenerate_transformations() {
     let mut mesh = lumpy(1, 1);

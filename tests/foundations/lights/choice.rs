@@ -1,4 +1,4 @@
-//! Which light is asked: by power, and none is forgotten.
+//! Selection of lights: by power, and none is left out.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use lobe::light::{BoundingSphere, Light, LightChoice, LightSample, LightSampler,
 
 use crate::common::Rng;
 
-/// A light of a stranger who tells this power.
+/// A custom light with this power.
 struct Told(Option<f32>);
 
 impl Light for Told {
@@ -30,8 +30,8 @@ fn sampler(told: &[Option<f32>], choice: LightChoice) -> LightSampler {
     LightSampler::new(&lights, all, choice, &BoundingSphere::default())
 }
 
-/// Nine tenths by power, one tenth alike; what is not known counts as the mean of what is, and what is no
-/// power as none. All are drawn as often as the probability says.
+/// Nine tenths by power, one tenth uniform; unknown powers count as the mean of the known ones, and invalid ones as
+/// zero. Lights are selected as often as the probability says.
 /// Caught: lights without power left out; the unknown taken for dark; NaN let into the sum.
 #[test]
 fn every_light_is_drawn() {
@@ -67,10 +67,10 @@ fn every_light_is_drawn() {
     }
 }
 
-/// Without a choice each light is asked in a slot of its own, and one light alone is never drawn.
+/// If all lights are sampled, each has a slot, and a single light is never selected at random.
 /// Caught: the probability of the choice left in.
 #[test]
-fn all_are_asked_where_none_is_chosen() {
+fn all_lights_are_sampled_without_a_choice() {
     for (told, choice) in
         [(&[Some(1.0), Some(0.0), None][..], LightChoice::All), (&[Some(0.0)], LightChoice::One)]
     {
@@ -83,10 +83,10 @@ fn all_are_asked_where_none_is_chosen() {
     }
 }
 
-/// Lights that are not sampled have no probability, and the others keep their numbers.
+/// Lights that are not sampled have probability 0, and the others keep their indices.
 /// Caught: places among the sampled taken for numbers.
 #[test]
-fn numbers_are_those_of_the_scene() {
+fn indices_are_those_of_the_scene() {
     let lights: Vec<Arc<dyn Light>> = (0..4)
         .map(|i| -> Arc<dyn Light> {
             Arc::new(PointLight::new(Vec3::ZERO, Spectrum::splat(i as f32)))

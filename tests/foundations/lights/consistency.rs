@@ -1,4 +1,4 @@
-//! `sample_li`, `pdf_li` and `le` tell the same story.
+//! `sample_li`, `pdf_li` and `le` agree.
 
 use lobe::accel::Accel;
 use lobe::glam::{Vec2, Vec3};
@@ -42,7 +42,7 @@ fn densities_of_samples_and_of_rays_agree() {
             let Some(sample) = light.sample_li(p, rng.square()) else { continue };
             let length = sample.wi.as_dvec3().length();
             assert!((length - 1.0).abs() < 2e-7, "trial {trial}: {length}");
-            // Rays to a border may pass it, and others may meet another triangle first.
+            // Rays to the border may miss it, and others may hit another triangle first.
             let Some(hit) = trace(&accel, &mesh, p, sample.wi) else { continue };
             let reach = (sample.from.unwrap() - p).length();
             let cos = hit.n.dot(hit.wi).abs();
@@ -76,7 +76,7 @@ fn directions_have_their_density() {
         for _ in 0..1_000_000 {
             observed[cells.of(light.sample_li(Vec3::ZERO, rng.square()).unwrap().wi)] += 1;
         }
-        // The border of the light runs through cells: fine midpoints, and for those cells a pool.
+        // The border of the light crosses cells: these are pooled, and integrated by fine midpoints.
         let mut expected = vec![0.0; cells.count()];
         let mut partial = vec![false; cells.count()];
         let (rows, columns) = (40 * 16, 40 * 16);

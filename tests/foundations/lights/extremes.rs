@@ -1,4 +1,4 @@
-//! Whatever is asked, the answer is finite or none.
+//! Results are finite or `None` for any input.
 
 use lobe::TriangleMesh;
 use lobe::glam::{Vec2, Vec3};
@@ -59,7 +59,7 @@ fn all_samples_are_finite() {
     }
 }
 
-/// No light from within its plane, from behind, or from the point itself; it is whole from close above.
+/// No light arrives in the light's plane, behind it, or at the point itself; close above it all of it does.
 #[test]
 fn there_is_no_light_where_none_can_be() {
     let mesh = rectangle(Vec3::ZERO, Vec3::X, Vec3::Y);
@@ -78,7 +78,7 @@ fn there_is_no_light_where_none_can_be() {
     }
 }
 
-/// What has no area is no light.
+/// A mesh without area makes no light.
 #[test]
 fn lights_without_area_are_refused() {
     let flat = single([Vec3::ZERO, Vec3::X, 2.0 * Vec3::X]);

@@ -1,5 +1,4 @@
-//! Lights with an extent: what they say of themselves fits together, and gives the irradiance of the
-//! textbooks.
+//! Lights with an extent: their methods agree with each other and with closed forms of irradiance.
 
 mod choice;
 mod consistency;
@@ -26,7 +25,7 @@ fn rectangle(corner: Vec3, x: Vec3, y: Vec3) -> TriangleMesh {
     }
 }
 
-/// What a ray from `origin` along `wi` meets of the mesh.
+/// Where a ray from `origin` along `wi` hits the mesh.
 fn trace(accel: &Accel, mesh: &TriangleMesh, origin: Vec3, wi: Vec3) -> Option<LightHit<'static>> {
     let hit = accel.intersect1(&Ray::new(origin, wi));
     hit.is_hit().then(|| {

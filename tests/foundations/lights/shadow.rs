@@ -1,4 +1,4 @@
-//! Nothing that a light and a surface have to do with each other stands between them.
+//! Shadow rays are not blocked by the light and the surface at their ends.
 
 use lobe::accel::Accel;
 use lobe::glam::{DVec3, Vec3};

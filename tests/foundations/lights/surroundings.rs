@@ -13,8 +13,8 @@ use crate::common::stats::{assert_mean, mean};
 const PI: f64 = std::f64::consts::PI;
 const SCENE: BoundingSphere = BoundingSphere { center: Vec3::X, radius: 2.5 };
 
-/// A line through a ball around the light, uniform among all of them, meets the light as often as its power
-/// says: the integral over area and solid angle of L cos θ, by rays from outside that see it.
+/// A uniform random line through a ball around the light hits it in proportion to its power: the integral over
+/// area and solid angle of L cos θ, by rays from outside.
 #[test]
 fn power_of_areas_is_what_leaves_them() {
     let quad = rectangle(Vec3::new(-0.5, 0.0, 0.0), Vec3::X, 0.5 * Vec3::Y);
@@ -23,7 +23,7 @@ fn power_of_areas_is_what_leaves_them() {
         let accel = Accel::build(std::slice::from_ref(&mesh));
         for two_sided in [false, true] {
             let light = AreaLight::new(&mesh, L, two_sided).unwrap();
-            // Out of each point of the surface, not held up by what lies before it.
+            // Away from each point of the surface, ignoring occlusion.
             let mut rng = Rng::new(950, run as u64);
             let areas: Vec<f32> = (0..mesh.indices.len())
                 .map(|t| {

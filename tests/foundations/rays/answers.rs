@@ -1,4 +1,4 @@
-//! What rays are answered: by a loop over all triangles, and by the tree in all its forms.
+//! The truth for rays, by a loop over all triangles, and comparison with the tree.
 
 use lobe::TriangleMesh;
 use lobe::accel::{Accel, Hit, InstructionSet};
@@ -8,7 +8,7 @@ use lobe::shape::ShearedRay;
 
 use crate::common::Rng;
 
-/// All triangles that have an area, in order, each with its shape and number.
+/// All triangles with an area, in order, each with the indices of shape and triangle.
 pub struct Loop(Vec<([Vec3; 3], u32, u32)>);
 
 impl Loop {
@@ -38,7 +38,7 @@ impl Loop {
         closest
     }
 
-    /// What a ray finds on the triangle that was hit, by itself.
+    /// The hit of a ray with the triangle that was hit, tested alone.
     pub fn again(&self, ray: &Ray, hit: &Hit) -> Hit {
         let number = (hit.shape, hit.triangle);
         let found =
@@ -48,20 +48,20 @@ impl Loop {
     }
 }
 
-/// A hit as whole numbers, which differ wherever the hits do.
+/// A hit as integers, to compare bits.
 pub fn bits(hit: &Hit) -> (u32, [u32; 3], u32, u32) {
     (hit.t.to_bits(), hit.b.map(f32::to_bits), hit.shape, hit.triangle)
 }
 
-/// Fails unless the tree gives this hit, asked for the closest and for any.
+/// Fails unless the tree gives this hit, for the closest-hit and the any-hit query.
 pub fn assert_single(accel: &Accel, ray: &Ray, truth: &Hit, what: &str) {
     let hit = accel.intersect1(ray);
     assert_eq!(bits(&hit), bits(truth), "{what}: {ray:?}: {hit:?}, expected {truth:?}");
     assert_eq!(accel.occluded1(ray), truth.is_hit(), "{what}: {ray:?}: occluded1, {truth:?}");
 }
 
-/// Fails unless the tree gives what the loop gives to each ray by itself and to all of them as one
-/// batch, by all instructions of the processor. The number of a ray in the message is its trial.
+/// Fails unless the tree gives the same as the loop for each ray alone and for all of them as one batch, with each
+/// instruction set of the processor. The index of a ray in the message is its trial.
 pub fn assert_answers(accel: &Accel, truth: &Loop, rays: &[Ray], what: &str) {
     let truths: Vec<Hit> = rays.iter().map(|ray| truth.closest(ray)).collect();
     let order: Vec<usize> = (0..rays.len()).collect();
@@ -75,7 +75,7 @@ pub fn assert_answers(accel: &Accel, truth: &Loop, rays: &[Ray], what: &str) {
     }
 }
 
-/// Fails unless the tree, asked for the rays of these numbers as one batch, gives these hits.
+/// Fails unless the tree gives these hits for the rays with these indices, as one batch.
 pub fn assert_batch(accel: &Accel, rays: &[Ray], order: &[usize], truths: &[Hit], what: &str) {
     let batch: Vec<Ray> = order.iter().map(|&number| rays[number]).collect();
     let (hits, occluded) = ask(accel, &batch);
@@ -88,8 +88,8 @@ pub fn assert_batch(accel: &Accel, rays: &[Ray], order: &[usize], truths: &[Hit]
     }
 }
 
-/// Asks for a batch. The answers go into the middle of longer arrays that hold something already: all
-/// of the middle has to be written, and nothing around it.
+/// Traces a batch. The results go into the middle of longer arrays with other contents: the whole
+/// middle has to be written, and nothing around it.
 pub fn ask(accel: &Accel, rays: &[Ray]) -> (Vec<Hit>, Vec<bool>) {
     const AROUND: usize = 17;
     let stale = Hit { t: -7.0, b: [f32::NAN; 3], shape: 0, triangle: u32::MAX - 7 };
@@ -105,8 +105,8 @@ pub fn ask(accel: &Accel, rays: &[Ray]) -> (Vec<Hit>, Vec<bool>) {
     (hits[middle.clone()].to_vec(), occluded[middle].to_vec())
 }
 
-/// Ways to hand rays over: as they are; those side by side that run the same way, as a camera's tiles
-/// hold them; and runs of such rays with strangers between them, now few and now many.
+/// Orders of rays: unchanged; sorted by direction, as in a camera's tiles; and sorted runs with unrelated rays
+/// between them, few or many.
 pub fn orders(rays: &[Ray], rng: &mut Rng) -> [Vec<usize>; 3] {
     let as_they_are: Vec<usize> = (0..rays.len()).collect();
     let mut coherent = as_they_are.clone();
@@ -121,7 +121,7 @@ pub fn orders(rays: &[Ray], rng: &mut Rng) -> [Vec<usize>; 3] {
     [as_they_are, coherent, mixed]
 }
 
-/// Directions with neighbouring codes are alike: the octant, and then the bits of the coordinates in turn
+/// A code whose neighbours have similar directions: the octant, then the bits of the coordinates, interleaved
 /// (Morton's order).
 fn direction_code(d: Vec3) -> u64 {
     let unit = d.normalize_or_zero().to_array();
@@ -132,7 +132,7 @@ fn direction_code(d: Vec3) -> u64 {
     })
 }
 
-/// Cuts an order into batches: mostly a renderer's 1024, and lengths that no width divides.
+/// Cuts an order into batches: mostly a renderer's 1024, and lengths that no vector width divides.
 pub fn cut(order: &[usize]) -> impl Iterator<Item = &[usize]> {
     let mut lengths =
         [1024, 1023, 64, 1, 1024, 7, 8, 9, 1000, 15, 16, 17, 1024, 31, 2, 33].iter().cycle();

@@ -1,4 +1,4 @@
-//! Batches give what single rays give, whatever they hold and however they are ordered.
+//! Batches give the same as single rays, for any rays in any order.
 
 use lobe::accel::{Accel, Hit};
 use lobe::geometry::Ray;
@@ -9,12 +9,12 @@ use super::kinds::{Kind, many, none};
 use crate::common::Rng;
 use crate::common::meshes::{lumpy, placed, soup};
 
-/// A tree, rays, and what each of them hits by itself.
+/// A tree, rays, and the hit of each ray alone.
 struct RunningMean {
     accel: Accel,
     rays: Vec<Ray>,
     hits: Vec<Hit>,
-    /// Where the rays of each kind end: a camera's tiles, those of every kind, those that are none.
+    /// Where the rays of each group end: a camera's tiles, rays of every kind, invalid rays.
     ends: [usize; 3],
 }
 
@@ -54,8 +54,8 @@ fn pool(test: u64) -> RunningMean {
     RunningMean { accel, rays, hits, ends }
 }
 
-/// Every length up to five times the widest hardware's, and around the powers of two above, of rays that go
-/// together and of rays that have nothing to do with each other. Caught: what is left over when lengths are
+/// Every length up to five times the widest hardware's, and around the powers of two above, for coherent and for
+/// unrelated rays. Caught: what is left over when lengths are
 /// divided by 8 not written, for either question; eight rays given the octant of the first, its padding, or
 /// the widest range of them; answers put in the wrong places; a hit written beyond the end.
 #[test]
@@ -89,11 +89,11 @@ fn batches_in_all_orders() {
     }
 }
 
-/// Tiles of a camera with a few strangers in them: rays of other octants, lengths, origins and ranges, rays
-/// that are none, the same ray again. Neither may change what the others hit. Caught: eight rays that all
+/// A camera's tiles with a few unrelated rays: other octants, lengths, origins and ranges, invalid rays,
+/// duplicates. They must not change the hits of the others. Caught: eight rays that all
 /// miss when one of them is NaN, or has a 0 in its direction; octant, padding and range as above.
 #[test]
-fn strangers_in_a_tile_change_nothing() {
+fn unrelated_rays_in_a_tile_change_nothing() {
     let pool = pool(1320);
     let [tiles, kinds, all] = pool.ends;
     for trial in 0..1500 {
@@ -113,7 +113,7 @@ fn strangers_in_a_tile_change_nothing() {
     }
 }
 
-/// Whatever a walk remembers between rays is its own: threads that share a tree do not disturb each other.
+/// State of a traversal is per thread: threads that share a tree do not disturb each other.
 /// Caught: a ray's octant kept in a static.
 #[test]
 fn threads_share_a_tree() {

@@ -10,10 +10,10 @@ use super::kinds::{Kind, many};
 use crate::common::Rng;
 use crate::common::meshes::{grid, lumpy, mixture, placed, soup};
 
-/// Around the widths that hardware has, where lanes stay empty, and well beyond.
+/// Around the widths of hardware vectors, where lanes stay empty, and well beyond.
 const SIZES: [usize; 13] = [1, 2, 3, 7, 8, 9, 15, 16, 17, 33, 100, 1000, 20_000];
 
-/// Fails unless tree and loop agree on rays of every kind, about `tests` ray-triangle tests for each.
+/// Fails unless tree and loop agree on rays of every kind, with about `tests` ray-triangle tests for each.
 fn assert_scene(meshes: &[TriangleMesh], test: u64, tests: usize, most: usize, what: &str) {
     let (accel, truth) = (Accel::build(meshes), Loop::new(meshes));
     let count = (tests / accel.triangle_count()).clamp(50, most);
@@ -52,8 +52,8 @@ fn trees_of_all_sizes_give_what_a_loop_gives_in_full() {
     scenes_of_all_sizes(20_000, 60_000_000, 30_000);
 }
 
-/// Surfaces as scenes have them: a closed mesh twice, in the same place; a grid in a plane of the axes beside
-/// a lump.
+/// Typical surfaces: a closed mesh twice, in the same place; a grid in an axis-aligned plane beside
+/// a closed mesh.
 fn surfaces(test: u64, tests: usize) {
     let lump = lumpy(3, 5);
     let twice = [lump.clone(), TriangleMesh::default(), lump.clone()];
@@ -105,10 +105,10 @@ fn scenes_at_extreme_scales_give_what_a_loop_gives() {
     assert_scene(&all, 31_100, 2_000_000, 4000, "all scales");
 }
 
-/// Shapes and triangles come back by the numbers they have, however large: 70,000 shapes of a few triangles,
+/// Indices of shapes and triangles are returned unchanged, however large: 70,000 shapes of a few triangles,
 /// and one of 140,000. Caught: the shape cut to 16 bits; the triangle cut to 16 bits.
 #[test]
-fn large_numbers_come_back() {
+fn large_indices_come_back() {
     let at = |i: usize| Vec3::new((i % 300) as f32, (i / 300) as f32, 0.0);
     let tile = |i: usize| [Vec3::ZERO, Vec3::X, Vec3::Y].map(|corner| at(i) + 0.75 * corner);
     let small = (0..70_000).map(|i| soup(&vec![tile(i); 1 + i % 2]));

@@ -1,4 +1,4 @@
-//! Meshes that no one means: no panic, and no wrong hit.
+//! Degenerate meshes: no panic, and no wrong hit.
 
 use lobe::TriangleMesh;
 use lobe::accel::{Accel, Hit};
@@ -28,7 +28,7 @@ fn without_area(rng: &mut Rng) -> [Vec3; 3] {
 
 /// Caught: the tree's first node taken for granted; the second half of a batch left as it was.
 #[test]
-fn nothing_is_hit_in_nothing() {
+fn empty_scenes_have_no_hits() {
     for meshes in [vec![], vec![TriangleMesh::default()], vec![TriangleMesh::default(); 3]] {
         let accel = Accel::build(&meshes);
         let rays: Vec<Ray> = (0..1000)
@@ -105,10 +105,10 @@ fn one_triangle_is_hit() {
     assert!(hit > 10_000, "only {hit} triangles were hit from above");
 }
 
-/// What the tree cannot hold is refused before: NaN, infinities and numbers too far out, in any coordinate of
+/// Vertices that the tree cannot store are refused: NaN, infinities and numbers that are too large, in any coordinate of
 /// any vertex. Caught: NaN let through; numbers too far out let through.
 #[test]
-fn vertices_that_are_none_are_refused() {
+fn invalid_vertices_are_refused() {
     let bad = [f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1.001e12, f32::MIN];
     for trial in 0..1000 {
         let mut rng = Rng::new(836, trial);

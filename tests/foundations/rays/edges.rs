@@ -6,7 +6,7 @@ use lobe::shape::ShearedRay;
 
 use crate::common::Rng;
 
-/// Which side of an edge a ray passes is told exactly, however close: along the z axis, where the shear
+/// The test decides exactly on which side of an edge a ray passes, however close: along the z axis, where the shear
 /// rounds nothing, against the sign of the edge function in f64, which holds it. Caught: an edge function of
 /// 0 without its second look in f64, which hits beside the triangle. Caught as well: a ray along an edge
 /// taken to be outside of the triangle.

@@ -9,15 +9,15 @@ use crate::common::Rng;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
-    /// From anywhere to a point inside of a triangle, to a corner, or to the middle of an edge.
+    /// From a random point to one inside of a triangle, to a corner, or to the middle of an edge.
     Camera,
-    /// From anywhere to anywhere.
+    /// From a random point to another.
     Random,
-    /// From the surface to a point, with the origin outside of the error's box, as shadow rays go.
+    /// From the surface to a point, with the origin offset beyond the error bounds, as for shadow rays.
     ToPoint,
     /// From the surface to a direction, likewise.
     Leaving,
-    /// From the surface, or a corner, as it is.
+    /// From the surface, or a corner, without an offset.
     OnSurface,
     /// Along an axis, with zeros of both signs.
     Axis,
@@ -25,7 +25,7 @@ pub enum Kind {
     AcrossAxis,
     /// Within the plane of a face of the triangle's box.
     BoxFace,
-    /// Within the triangle's plane, as far as floats go.
+    /// Within the triangle's plane, up to rounding.
     TrianglePlane,
     /// Along an edge, through both of its corners.
     AlongEdge,
@@ -74,7 +74,7 @@ fn pick<'a>(meshes: &'a [TriangleMesh], rng: &mut Rng) -> (&'a TriangleMesh, usi
     }
 }
 
-/// A half line (but for [`Kind::ToPoint`]), and a point that it was aimed at.
+/// A ray of infinite length (except for [`Kind::ToPoint`]), and the point that it was aimed at.
 fn plain(kind: Kind, meshes: &[TriangleMesh], rng: &mut Rng) -> (Ray, Vec3) {
     let (mesh, triangle) = pick(meshes, rng);
     let corners = mesh.corners(triangle);
@@ -130,8 +130,8 @@ fn plain(kind: Kind, meshes: &[TriangleMesh], rng: &mut Rng) -> (Ray, Vec3) {
     (ray, target)
 }
 
-/// The same ray with its direction of this length, unless that is 1, and with another range. Values of t
-/// go with the distance to the target: before it and beyond it are as likely, and so is a range that is empty.
+/// The same ray with its direction scaled to this length, unless that is 1, and with another range. The ends of the
+/// range are equally likely before and beyond the target, and the range may be empty.
 fn varied(mut ray: Ray, target: Vec3, new_length: f32, rng: &mut Rng) -> Ray {
     let length = ray.d.length();
     if new_length != 1.0 && length > 0.0 {
@@ -148,7 +148,7 @@ fn varied(mut ray: Ray, target: Vec3, new_length: f32, rng: &mut Rng) -> Ray {
     ray
 }
 
-/// Rays that are none: zeros of both signs, infinities and NaN in all places, some next to a 1.
+/// Invalid rays: zeros of both signs, infinities and NaN in all components, some next to a 1.
 pub fn none() -> Vec<Ray> {
     let bad = [0.0, -0.0, 1.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
     let mut rays = Vec::new();
@@ -157,7 +157,7 @@ pub fn none() -> Vec<Ray> {
             for z in bad {
                 let v = Vec3::new(x, y, z);
                 rays.extend([Ray::new(v, Vec3::Z), Ray::new(Vec3::ZERO, v), Ray::new(v, v)]);
-                // Next to good ones: the same in a single coordinate, from where something is hit.
+                // The same in a single component of a ray that hits something.
                 rays.push(Ray {
                     t_min: x,
                     t_max: y,

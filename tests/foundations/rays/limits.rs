@@ -1,4 +1,4 @@
-//! Where a ray begins and ends, to the bit.
+//! The ends of a ray's range, to the bit.
 
 use lobe::TriangleMesh;
 use lobe::accel::{Accel, Hit};
@@ -9,7 +9,7 @@ use super::answers::{Loop, assert_answers};
 use super::kinds::{Kind, many};
 use crate::common::meshes::{grid, lumpy, placed};
 
-/// The ray with ranges that begin and end at the hit and one float beside it.
+/// The ray with ranges that begin and end at the hit, and one float before or after it.
 fn around(ray: &Ray, hit: &Hit) -> [Ray; 9] {
     let (t, below, above) = (hit.t, hit.t.next_down(), hit.t.next_up());
     let range = |t_min: f32, t_max: f32| Ray { t_min, t_max, ..*ray };
@@ -45,7 +45,7 @@ fn ranges_end_at_the_very_float() {
         let all: Vec<Ray> = hits.flat_map(|(ray, hit)| around(ray, &hit)).collect();
         assert!(all.len() > 9 * 20 || kind == Kind::TrianglePlane, "{kind:?}: {} rays", all.len());
         assert_answers(&accel, &truth, &all, &format!("{kind:?}"));
-        // What the loop says is meant: here stands what has to come out.
+        // The loop only gives the same as the tree; these are the expected results.
         for (number, ranges) in all.chunks(9).enumerate() {
             let t = ranges[0].t_max;
             for (place, hit) in

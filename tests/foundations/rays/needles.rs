@@ -1,5 +1,5 @@
-//! Triangles whose coordinates are 10^U(-8, 8): almost all are needles and shards of three lengths that have
-//! nothing to do with each other.
+//! Triangles whose coordinates are 10^U(-8, 8): almost all are needles, or have three edges of very different
+//! lengths.
 
 use lobe::accel::{Accel, Hit};
 use lobe::geometry::Ray;
@@ -9,13 +9,13 @@ use super::kinds::{Kind, many};
 use crate::common::Rng;
 use crate::common::meshes::mixture;
 
-/// Fails unless `hit` is one that a tree of boxes may find. Something is hit if the loop hits something, and what
-/// is hit has the bits that its triangle gives by itself.
+/// Fails unless `hit` is one that traversal may find. There is a hit if the loop has one, and the hit has the bits that
+/// its triangle gives alone.
 ///
-/// It need not be the loop's: along a needle t may be wrong by more than any box is padded, up to t itself
-/// (the triangle test refuses a t below the bound on its error). A walk that has a hit closer than the
-/// box of such a needle leaves the box alone, and is right to: the needle is not closer, its t says so by
-/// mistake. So t is less than twice the loop's.
+/// It need not be the loop's hit. Along a needle the error of t may exceed the padding of any box, up to t itself
+/// (the triangle test rejects a t below its error bound). Traversal that has a hit closer than the box of such a
+/// needle skips the box, and is right: the needle is not closer, its t is too small by mistake. So t has to be less
+/// than twice the loop's.
 fn assert_possible(truth: &Loop, ray: &Ray, hit: &Hit, what: &str) {
     let closest = truth.closest(ray);
     assert_eq!(hit.is_hit(), closest.is_hit(), "{what}: {ray:?}: {hit:?}, expected {closest:?}");
@@ -34,7 +34,7 @@ fn needles(test: u64, trials: u64, count: usize) {
             let (accel, truth) = (Accel::build(&meshes), Loop::new(&meshes));
             for kind in Kind::ALL {
                 let what = format!("{triangles} triangles, scene {trial}, {kind:?}");
-                // Whole half lines: where a range ends, the error of t counts too.
+                // Infinite rays: at the end of a range, the error of t would matter too.
                 let whole = |ray: Ray| Ray::new(ray.o, ray.d);
                 let rays: Vec<Ray> =
                     many(kind, &meshes, seed, count).into_iter().map(whole).collect();

@@ -1,4 +1,4 @@
-//! Rays that leave a surface do not hit what lies beside them in it.
+//! Rays that leave a surface do not hit its coplanar neighbours.
 
 use lobe::TriangleMesh;
 use lobe::accel::{Accel, Hit};
@@ -8,7 +8,7 @@ use lobe::interaction::SurfaceInteraction;
 use super::answers::{assert_batch, assert_single, cut};
 use crate::common::Rng;
 
-/// Rays that leave a plane do not hit its other triangles. The corners are whole numbers, so that they lie
+/// Rays that leave a plane do not hit its other triangles. The corners are integers, so that they lie
 /// in one plane exactly; far from the origin, points between them do not. Half of the rays start on edges
 /// and corners, and half leave along the surface. Caught: the origin not moved, or by a sixteenth.
 #[test]
@@ -43,7 +43,7 @@ fn no_triangle_hits_its_neighbours() {
                 w = (w - w.dot(n) * n * (1.0 - 10.0_f64.powf(-6.0 * rng.f64()))).normalize();
             }
             let w = w.as_vec3();
-            // A direction that rounding has laid into the plane leaves to either side.
+            // A direction that rounding has laid into the plane may leave to either side.
             if w.as_dvec3().dot(n).abs() < 2e-7 {
                 continue;
             }
@@ -51,7 +51,7 @@ fn no_triangle_hits_its_neighbours() {
             let si = SurfaceInteraction::on_triangle(&mesh, triangle, b, w);
             let mut ray = si.spawn_ray(w);
             let target = si.p() + w * 10.0_f32.powf(4.0 * rng.f32() - 1.0);
-            // A target closer to the plane than the point may be is on neither side of it.
+            // A target that is closer to the plane than the point's error may be on either side.
             let height = |p: Vec3| (p - corner).as_dvec3().dot(n);
             if height(target).abs() > 2.0 * f64::from(si.p_error().length()) && rng.below(2) == 0 {
                 ray = si.spawn_ray_to(target);

@@ -9,10 +9,10 @@ use super::answers::{assert_batch, assert_single};
 use crate::common::Rng;
 use crate::common::meshes::single;
 
-/// Triangles that are tried, and rays from each.
+/// Number of triangles, and of rays from each.
 const TRIANGLES: usize = 1000;
 const RAYS: usize = 10_000;
-/// From how many hits of a triangle its rays leave.
+/// Number of hits per triangle from which rays leave.
 const HITS: usize = 10;
 
 /// A hit on a triangle, found by a ray as a renderer finds it.
@@ -25,8 +25,8 @@ fn hit(rng: &mut Rng, accel: &Accel, corners: [Vec3; 3]) -> Option<(Ray, [f32; 3
     hit.is_hit().then_some((ray, hit.b))
 }
 
-/// A point that is on one side of the triangle's plane: farther from it than rounding moves the ends
-/// of a ray to it. Of those drawn, one in millions is not.
+/// A point on one side of the triangle's plane, farther from it than rounding moves the ends of a ray to it. One in
+/// millions of drawn points is not.
 fn beside(si: &SurfaceInteraction, corners: [Vec3; 3], rng: &mut Rng) -> Vec3 {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let normal = (b - a).cross(c - a).normalize();
@@ -51,7 +51,7 @@ fn no_triangle_hits_itself() {
         let corners = [(); 3].map(|()| rng.point(8.0));
         let mesh = single(corners);
         let accel = Accel::build(std::slice::from_ref(&mesh));
-        // Needles are hard to hit: those that 100 rays do not hit ten times are passed over.
+        // Needles are hard to hit: triangles with fewer than ten hits by 100 rays are skipped.
         let hits: Vec<_> =
             (0..100).filter_map(|_| hit(&mut rng, &accel, corners)).take(HITS).collect();
         if hits.len() < HITS {
@@ -113,7 +113,7 @@ fn no_flat_mesh_hits_itself() {
             let side = if rng.below(2) == 0 { n } else { -n };
             let along = n.cross(rng.direction().as_dvec3()).normalize();
             let w = ((1.0 - sine * sine).sqrt() * along + sine * side).as_vec3();
-            // Rounding of w decides on the side of less.
+            // Below that, the rounding of w decides on the side.
             if w.as_dvec3().dot(side) < 1e-6 {
                 continue;
             }

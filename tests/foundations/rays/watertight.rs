@@ -11,7 +11,7 @@ use super::answers::{assert_batch, cut, orders};
 use crate::common::Rng;
 use crate::common::meshes::{lumpy, placed};
 
-/// Sizes and places, as scale and offset: far from the origin the vertices sit on a coarse grid.
+/// Scales and offsets: far from the origin the vertices are on a coarse grid.
 fn placements() -> [(f32, Vec3); 5] {
     let far = Vec3::new(300.0, -1000.0, 20.0);
     [(1.0, Vec3::ZERO), (1e-6, Vec3::ZERO), (1e6, Vec3::ZERO), (1.0, far), (1e-3, far / 300.0)]
@@ -31,9 +31,9 @@ fn topology(mesh: &TriangleMesh) -> (BTreeMap<(u32, u32), Vec<usize>>, Around) {
     (edges, around)
 }
 
-/// Fails unless every ray hits: by itself, asked for the closest hit and for any, and in batches of all
-/// lengths, where it has to hit what it hits by itself. The batches hold rays as they are, coherent or mixed, as
-/// it is their `turn`. The number of a ray is its trial.
+/// Fails unless every ray hits: alone, for closest and any hit, and in batches of all
+/// lengths, with the same hit as alone. `turn` selects whether the batches are unordered, coherent or mixed.
+/// The index of a ray is its trial.
 fn assert_closed(accel: &Accel, rays: &[Ray], turn: u64, what: &str) {
     let hits: Vec<Hit> = rays.iter().map(|ray| accel.intersect1(ray)).collect();
     for (trial, (ray, hit)) in rays.iter().zip(&hits).enumerate() {

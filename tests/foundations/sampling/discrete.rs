@@ -1,4 +1,4 @@
-//! One of many, by weight.
+//! Selection by weight.
 
 use lobe::sampling::Discrete;
 
@@ -77,7 +77,7 @@ fn choices_are_ordered_and_never_without_weight() {
     }
 }
 
-/// Nothing to choose from.
+/// Weights without a positive sum are refused.
 #[test]
 fn weights_that_add_up_to_nothing_are_refused() {
     for bad in [vec![], vec![0.0], vec![0.0, -1.0, f64::NAN], vec![1.0, f64::INFINITY]] {

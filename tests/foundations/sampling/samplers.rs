@@ -24,10 +24,10 @@ pub fn samplers(spp: u32, seed: u64) -> [(&'static str, Box<dyn Sampler>); 4] {
     ]
 }
 
-/// The same question has the same answer, in any order and on any thread. Caught: a counter in the
+/// Equal arguments give equal samples, in any order and on any thread. Caught: a counter in the
 /// sampler.
 #[test]
-fn a_sample_is_a_function_of_its_name() {
+fn a_sample_is_a_function_of_its_id() {
     let questions: Vec<_> =
         (0..4000).map(|i| (id(i % 7, i / 7 % 5, i / 35 % 23), i / 805)).collect();
     for (name, sampler) in samplers(16, 99) {
@@ -64,7 +64,7 @@ fn large_sets_stay_below_one() {
 
 /// Caught: a length whose next power of two is not a u32.
 #[test]
-fn extreme_names_have_values_too() {
+fn extreme_ids_have_values_too() {
     for trial in 0..300_000 {
         let mut rng = Rng::new(30, trial);
         let extreme = |rng: &mut Rng| match rng.below(4) {
@@ -125,7 +125,7 @@ fn cell(p: Vec2) -> usize {
     (p.x * 32.0) as usize * 32 + (p.y * 32.0) as usize
 }
 
-/// Neighbours in every direction know nothing of each other: pairs fill the square. Caught: pixel and
+/// Neighbouring samples are independent in every direction: pairs fill the square. Caught: pixel and
 /// index folded together without a `mix` between; index and dimension by XOR; one key for all
 /// dimensions of the stratified sampler.
 #[test]

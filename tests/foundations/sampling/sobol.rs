@@ -108,7 +108,7 @@ fn scrambles_are_random() {
     }
 }
 
-/// What the samples of one call are is what they are one by one, whatever runs. Caught: a block kept when the set
+/// `fill` gives the same as single calls of `get`, in any order. Caught: a block kept when the set
 /// changes.
 #[test]
 fn fills_equal_gets() {

@@ -5,7 +5,7 @@
 //! node tests/wasm/run.mjs target/wasm32-unknown-unknown/release/lobe_wasm.wasm
 //! ```
 //!
-//! Truth: a matte plane of albedo R, under a sky of radiance 1 and seen from above, sends back R everywhere.
+//! Truth: a matte plane of albedo R, under a sky of radiance 1 and seen from above, reflects R everywhere.
 //!
 //! Breaks that this caught, one at a time: `Instant::now` called on this target (it traps in the builder); a limit of time
 //! obeyed there, though no time passes (the render does not end).
@@ -32,6 +32,7 @@ fn picture() -> Result<Vec<Spectrum>, Box<dyn std::error::Error>> {
         .shape("plane", plane, "grey")
         .light(SkyLight::new(Spectrum::WHITE))
         .build()?;
+<<<<<<< HEAD
     let camera = PerspectiveSettings {
         eye: Vec3::new(0.0, 3.0, -1.0),
         look_at: Vec3::ZERO,
@@ -40,6 +41,9 @@ fn picture() -> Result<Vec<Spectrum>, Box<dyn std::error::Error>> {
     let view = View::perspective(&camera, FilmSettings::new(8, 8))?;
     let settings = RenderSettings::new(SamplerSettings::default(), PathIntegrator::new(4));
     // A limit of time must not make a render endless where no time passes.
+=======
+    // Time does not pass on this target, so a time limit must not make the render endless.
+>>>>>>> prose
     let options = RenderOptions { time: Some(Duration::from_millis(1)), ..Default::default() };
     Ok(render(&scene, &view, &settings, &options)?.picture.color)
 }
@@ -53,7 +57,7 @@ pub extern "C" fn mean() -> f64 {
     picture().map_or(f64::NAN, |colors| sum(colors) / 64.0)
 }
 
-/// What `mean` has to give.
+/// The expected result of `mean`.
 #[unsafe(no_mangle)]
 pub extern "C" fn expected() -> f64 {
     f64::from(ALBEDO)

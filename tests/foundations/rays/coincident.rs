@@ -1,5 +1,5 @@
-//! Many triangles in one place, and triangles inside of triangles: trees that are nothing but a heap, or
-//! nothing but a chain.
+//! Many triangles at one place, and triangles inside of triangles: trees without useful splits, and very deep
+//! trees.
 
 use lobe::TriangleMesh;
 use lobe::accel::Accel;
@@ -25,7 +25,7 @@ fn rays_at_corners(test: u64, count: u64) -> Vec<Ray> {
         .collect()
 }
 
-/// Many triangles in the very same place: every split is as bad as any other. The first of them is the one
+/// Many identical triangles, so that every split is equally bad. The first of them is the one
 /// that is hit, with the bits that one triangle gives. Caught: the later of equals taken; a leaf cut to its
 /// last 15; all but the first half of a batch left out.
 #[test]
@@ -40,8 +40,8 @@ fn triangles_in_one_place() {
     }
 }
 
-/// The same heap, with each triangle's corners turned round, and with others of the same box: they differ in
-/// what they hit, not in where they are. Caught: a leaf cut to its last 15 triangles; boxes that are not
+/// The same, with the corners of each triangle rotated, and with other triangles of the same box: they differ in
+/// what they hit, not in their bounds. Caught: a leaf cut to its last 15 triangles; boxes that are not
 /// padded; ties broken by the order of the tree.
 #[test]
 fn triangles_in_one_box() {
@@ -56,7 +56,7 @@ fn triangles_in_one_box() {
     }
 }
 
-/// A million triangles that are one point, and have no area, beside one that has. Caught: triangles without
+/// A million triangles without area in one point, beside one with an area. Caught: triangles without
 /// area kept.
 #[test]
 fn triangles_in_one_point() {
@@ -69,9 +69,9 @@ fn triangles_in_one_point() {
     assert_answers(&accel, &truth, &rays, "a million points");
 }
 
-/// Sizes in geometric progression make deep trees: each level holds one triangle and all that are smaller,
-/// thousands of levels of two children. Where triangles lie above each other, a ray from
-/// below enters the smaller ones first, and on each level something waits that it may yet have to hit.
+/// Sizes in geometric progression make deep trees: each level has one triangle and a subtree of all smaller ones, for
+/// thousands of levels of binary nodes. Where the triangles are layered, a ray from
+/// below enters the smaller ones first, and leaves one entry per level on the stack.
 /// Caught: what waits beyond 64, and beyond 256, dropped; padding that leaves out where the ray begins.
 #[test]
 fn deep_trees_are_walked() {
@@ -125,11 +125,11 @@ fn deep_trees_are_walked() {
         let rays: Vec<Ray> = (0..1500).map(ray).collect();
         assert_answers(&accel, &truth, &rays, &format!("chain {number}"));
     }
-    // Deeper than where trees stop to be the cheapest, and never too deep for the stack.
+    // Deeper than the cheapest tree would be, and never too deep for the stack.
     assert!((10..=16).contains(&deepest), "the deepest tree has {deepest} levels");
 }
 
-/// A tree that is shallow but for one branch: most rays of a batch need little to remember, some need much.
+/// A shallow tree with one deep branch: most rays of a batch need little stack, some need much.
 /// Caught: what waits beyond 64, and beyond 256, dropped; eight rays walked in the octant of the first.
 #[test]
 fn deep_and_shallow_rays_in_one_batch() {

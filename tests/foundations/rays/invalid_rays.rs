@@ -1,4 +1,4 @@
-//! Rays that are none, and rays of odd lengths.
+//! Invalid rays, and rays of unusual lengths.
 
 use lobe::accel::{Accel, Hit};
 use lobe::geometry::Ray;
@@ -9,11 +9,11 @@ use super::kinds;
 use crate::common::Rng;
 use crate::common::meshes::{lumpy, soup};
 
-/// Zeros, infinities and NaN as origin, direction and range: the walk ends, and gives what a loop gives,
-/// which is never a hit at a distance that is none. Caught: a t of NaN taken for a hit; eight rays that all
+/// Zeros, infinities and NaN as origin, direction and range: traversal ends, and gives the same as a loop, which is
+/// never a hit at a distance that is not finite. Caught: a t of NaN taken for a hit; eight rays that all
 /// miss when one of them is NaN.
 #[test]
-fn rays_that_are_none() {
+fn invalid_rays() {
     for levels in [0, 1, 3] {
         let meshes = [lumpy(levels, 4)];
         let (accel, truth) = (Accel::build(&meshes), Loop::new(&meshes));
@@ -26,8 +26,8 @@ fn rays_that_are_none() {
     }
 }
 
-/// The longest directions and the shortest, which leave the range in which a t can be told: the walk ends, and
-/// what it finds is a triangle. Caught: a box entered whatever NaN says, and a t of NaN taken for a hit.
+/// The longest and the shortest directions, for which t is out of the range of f32: traversal ends, and
+/// any hit is a triangle. Caught: a box entered whatever NaN says, and a t of NaN taken for a hit.
 #[test]
 fn directions_at_the_ends_of_floats() {
     let accel = Accel::build(&[lumpy(3, 4)]);
@@ -65,7 +65,7 @@ fn directions_of_any_length() {
     }
 }
 
-/// Rays shorter than the smallest normal number, together as alone. Caught: the length of a beam inverted,
+/// Rays shorter than the smallest normal number, in batches as alone. Caught: the length of a beam inverted,
 /// which overflows.
 #[test]
 fn rays_as_short_as_floats_go() {
@@ -85,7 +85,7 @@ fn rays_as_short_as_floats_go() {
     }
 }
 
-/// Long directions in small scenes and short ones in large scenes: t is right though it is as small as
+/// Long directions in small scenes and short ones in large scenes: t is right even if it is as small as
 /// 1e-26 or as large as 1e30. Caught: z scaled to be t before it is multiplied with the edge functions.
 #[test]
 fn directions_of_any_length_in_scenes_of_any_size() {
@@ -108,7 +108,7 @@ fn directions_of_any_length_in_scenes_of_any_size() {
     }
 }
 
-/// A direction that is no number hits nothing, next to good rays in a batch too; and the good ones hit.
+/// A direction with NaN hits nothing, alone and in a batch, and the valid rays of the batch still hit.
 /// Caught: as above; eight rays walked in the octant of the first; zero taken for backwards, whose quotients
 /// are NaN.
 #[test]
