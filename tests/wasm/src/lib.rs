@@ -15,7 +15,12 @@ use std::time::Duration;
 use lobe::glam::Vec3;
 use lobe::integrator::PathIntegrator;
 use lobe::light::SkyLight;
-use lobe::{CameraSettings, MatteMaterial, RenderOptions, Scene, Spectrum, TriangleMesh, render};
+use lobe::render::SamplerSettings;
+use lobe::scene::{FilmSettings, View};
+use lobe::{
+    MatteMaterial, PerspectiveSettings, RenderOptions, RenderSettings, Scene, Spectrum,
+    TriangleMesh, render,
+};
 
 /// The albedo of the plane, and so the mean of the picture.
 const ALBEDO: f32 = 0.5;
@@ -24,20 +29,20 @@ fn picture() -> Result<Vec<Spectrum>, Box<dyn std::error::Error>> {
     let plane =
         TriangleMesh::parallelogram(Vec3::new(-9.0, 0.0, -9.0), 18.0 * Vec3::Z, 18.0 * Vec3::X);
     let scene = Scene::builder()
-        .camera(CameraSettings {
-            eye: Vec3::new(0.0, 3.0, -1.0),
-            look_at: Vec3::ZERO,
-            ..CameraSettings::default()
-        })
-        .resolution(8, 8)
-        .integrator(PathIntegrator::new(4))
         .material("grey", MatteMaterial::new([ALBEDO; 3]))
         .shape("plane", plane, "grey")
         .light(SkyLight::new(Spectrum::WHITE))
         .build()?;
+    let camera = PerspectiveSettings {
+        eye: Vec3::new(0.0, 3.0, -1.0),
+        look_at: Vec3::ZERO,
+        ..PerspectiveSettings::default()
+    };
+    let view = View::perspective(&camera, FilmSettings::new(8, 8))?;
+    let settings = RenderSettings::new(SamplerSettings::default(), PathIntegrator::new(4));
     // Time does not pass on this target, so a time limit must not make the render endless.
     let options = RenderOptions { time: Some(Duration::from_millis(1)), ..Default::default() };
-    Ok(render(&scene, &options)?.picture.color)
+    Ok(render(&scene, &view, &settings, &options)?.picture.color)
 }
 
 /// The mean of a rendered picture of 8 x 8 pixels; NaN if there is none.
