@@ -66,7 +66,7 @@ fn read(entries: &[(&str, Value)]) -> Result<String, String> {
     tree.map_err(|fault| fault.to_string())
 }
 
-/// Seen to fail with bounds compared in f64, where the float 0.1 is not 0.1; with `finish` left out of
+/// Seen to fail with `finish` left out of
 /// `Section::read`; and with undeclared keys read all the same.
 #[test]
 fn a_foreign_registry_reads_its_kinds() {
@@ -121,15 +121,16 @@ fn values_are_read_as_they_were_written() {
     round(Some(4_u32));
 }
 
-/// Ranges and their descriptions. Seen to fail with each bound included that is not, and the other way round.
+/// Ranges and their descriptions. Seen to fail with each bound included that is not, with the other way round, and with bounds
+/// compared in f64, where the float 0.1 is above 0.1.
 #[test]
 fn ranges_are_open_or_closed() {
     const ANY: Key<f32> = Key::new("x", "");
-    /// A key, the description of its range, and numbers inside and outside of it.
     type Case = (Key<f32>, &'static str, &'static [f32], &'static [f32]);
-    let cases: [Case; 8] = [
+    let cases: [Case; 9] = [
         (ANY, "a finite number", &[0.0, -f32::MAX], &[f32::INFINITY, f32::NAN]),
         (ANY.range(0.0..=1.0), "a number from 0 to 1", &[0.0, 1.0], &[-0.1, 1.1, f32::NAN]),
+        (ANY.range(0.0..=0.1), "a number from 0 to 0.1", &[0.1], &[0.11]),
         (ANY.above(0.0), "a finite number above 0", &[1e-30], &[0.0, -0.0, f32::INFINITY]),
         (ANY.at_least(0.0), "a finite number of at least 0", &[0.0, -0.0], &[-1e-30]),
         (ANY.below(2.0), "a finite number below 2", &[1.999], &[2.0, f32::NEG_INFINITY]),

@@ -16,10 +16,9 @@ use lobe::glam::Vec3;
 use lobe::integrator::PathIntegrator;
 use lobe::light::SkyLight;
 use lobe::render::SamplerSettings;
-use lobe::scene::{FilmSettings, View};
 use lobe::{
-    MatteMaterial, PerspectiveSettings, RenderOptions, RenderSettings, Scene, Spectrum,
-    TriangleMesh, render,
+    FilmSettings, MatteMaterial, PerspectiveSettings, RenderOptions, RenderSettings, Scene,
+    Spectrum, TriangleMesh, View, render,
 };
 
 /// The albedo of the plane, and so the mean of the picture.
@@ -33,6 +32,7 @@ fn picture() -> Result<Vec<Spectrum>, Box<dyn std::error::Error>> {
         .shape("plane", plane, "grey")
         .light(SkyLight::new(Spectrum::WHITE))
         .build()?;
+<<<<<<< HEAD
     let camera = PerspectiveSettings {
         eye: Vec3::new(0.0, 3.0, -1.0),
         look_at: Vec3::ZERO,
@@ -40,7 +40,10 @@ fn picture() -> Result<Vec<Spectrum>, Box<dyn std::error::Error>> {
     };
     let view = View::perspective(&camera, FilmSettings::new(8, 8))?;
     let settings = RenderSettings::new(SamplerSettings::default(), PathIntegrator::new(4));
+    // A limit of time must not make a render endless where no time passes.
+=======
     // Time does not pass on this target, so a time limit must not make the render endless.
+>>>>>>> prose
     let options = RenderOptions { time: Some(Duration::from_millis(1)), ..Default::default() };
     Ok(render(&scene, &view, &settings, &options)?.picture.color)
 }
