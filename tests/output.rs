@@ -139,6 +139,7 @@ fn curve(display: Display, linear: f64) -> f64 {
         Display::Srgb if linear <= 0.0031308 => 12.92 * linear,
         Display::Srgb => 1.055 * linear.powf(1.0 / 2.4) - 0.055,
         Display::Exposure => 1.0 - (-4.0 * linear).exp(),
+        _ => panic!("{display:?} has no formula here"),
     }
 }
 

@@ -16,9 +16,10 @@ use lobe::glam::Vec3;
 use lobe::integrator::PathIntegrator;
 use lobe::light::SkyLight;
 use lobe::render::SamplerSettings;
+use lobe::scene::{FilmSettings, View};
 use lobe::{
-    FilmSettings, MatteMaterial, PerspectiveSettings, RenderOptions, RenderSettings, Scene,
-    Spectrum, TriangleMesh, View, render,
+    MatteMaterial, PerspectiveSettings, RenderOptions, RenderSettings, Scene, Spectrum,
+    TriangleMesh, render,
 };
 
 /// The albedo of the plane, and so the mean of the picture.
@@ -32,7 +33,6 @@ fn picture() -> Result<Vec<Spectrum>, Box<dyn std::error::Error>> {
         .shape("plane", plane, "grey")
         .light(SkyLight::new(Spectrum::WHITE))
         .build()?;
-<<<<<<< HEAD
     let camera = PerspectiveSettings {
         eye: Vec3::new(0.0, 3.0, -1.0),
         look_at: Vec3::ZERO,
@@ -40,10 +40,7 @@ fn picture() -> Result<Vec<Spectrum>, Box<dyn std::error::Error>> {
     };
     let view = View::perspective(&camera, FilmSettings::new(8, 8))?;
     let settings = RenderSettings::new(SamplerSettings::default(), PathIntegrator::new(4));
-    // A limit of time must not make a render endless where no time passes.
-=======
     // Time does not pass on this target, so a time limit must not make the render endless.
->>>>>>> prose
     let options = RenderOptions { time: Some(Duration::from_millis(1)), ..Default::default() };
     Ok(render(&scene, &view, &settings, &options)?.picture.color)
 }
