@@ -125,7 +125,9 @@ fn values_are_read_as_they_were_written() {
 #[test]
 fn ranges_are_open_or_closed() {
     const ANY: Key<f32> = Key::new("x", "");
-    let cases: [(Key<f32>, &str, &[f32], &[f32]); 8] = [
+    /// Key, its range in words, numbers inside and outside.
+    type Case = (Key<f32>, &'static str, &'static [f32], &'static [f32]);
+    let cases: [Case; 8] = [
         (ANY, "a finite number", &[0.0, -f32::MAX], &[f32::INFINITY, f32::NAN]),
         (ANY.range(0.0..=1.0), "a number from 0 to 1", &[0.0, 1.0], &[-0.1, 1.1, f32::NAN]),
         (ANY.above(0.0), "a finite number above 0", &[1e-30], &[0.0, -0.0, f32::INFINITY]),
@@ -150,7 +152,8 @@ fn ranges_are_open_or_closed() {
 #[test]
 fn paths_are_relative_to_the_folder_of_their_source() {
     const FILE: Key<std::path::PathBuf> = Key::new("file", "a file");
-    static FILES: Section<fn(&Table) -> Result<std::path::PathBuf, Fault>> = Section {
+    type Read = fn(&Table) -> Result<std::path::PathBuf, Fault>;
+    static FILES: Section<Read> = Section {
         key: "file",
         plural: "files",
         is_named: false,

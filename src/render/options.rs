@@ -73,7 +73,7 @@ pub struct Rendered {
     /// What was done, with the samples that a cancelled render took but could not finish a tile with.
     pub counters: Counters,
     /// Samples of whole passes, the same number in each pixel. When a render is cancelled, pixels in tiles that its
-    /// last pass finished have more; [`Layers::samples`](crate::film::Layers::samples) tells how many.
+    /// last pass finished have more; [`Layers::samples`](crate::image::Layers::samples) tells how many.
     pub samples_per_pixel: u32,
     /// Whether all samples were taken that were asked for, or that `time` allowed. It is false if the render was
     /// cancelled, and for [`RenderOptions::on_pass`], since more may come.
