@@ -14,6 +14,18 @@
 //! - [`integrator`], how light is computed; [`render`](mod@render), the loop;
 //! - [`metrics`], errors between images, convergence and charts.
 //!
+//! # Features
+//!
+//! With `default-features = false` the crate is lobes, materials, lights, rays and rendering, with OBJ files in and PNG
+//! files out. These add to it:
+//!
+//! - `scene-file`: [`scene_file`], which brings in the package `toml`;
+//! - `exr`: [`image::write_exr`], and reading of such files by [`image::Image::read`]; brings in the package `exr`;
+//! - `metrics`: [`metrics`], which needs no package;
+//! - `cli`, the default: all of them, and what only the command `lobe` needs.
+//!
+//! # Traits
+//!
 //! Traits are the doors for other crates: [`bxdf::BxDF`], [`texture::Texture`], [`material::Material`],
 //! [`light::Light`], [`camera::Camera`], [`sampling::Sampler`] and [`integrator::Integrator`]. What most callers need stands at the
 //! root. Lengths are in scene units, angles in the unit that each item names, and radiance is in
@@ -32,11 +44,13 @@ pub mod integrator;
 pub mod interaction;
 pub mod light;
 pub mod material;
+#[cfg(feature = "metrics")]
 pub mod metrics;
 pub mod params;
 pub mod render;
 pub mod sampling;
 pub mod scene;
+#[cfg(feature = "scene-file")]
 pub mod scene_file;
 pub mod shape;
 mod spectrum;

@@ -21,6 +21,12 @@ pub enum ReadError {
         /// The path as it was given.
         path: PathBuf,
     },
+    /// The file is OpenEXR, and lobe was built without the feature `exr`.
+    #[error("cannot read `{}`: unsupported: built without the feature exr", .path.display())]
+    Unsupported {
+        /// The path as it was given.
+        path: PathBuf,
+    },
     /// The contents are not of the format that the name says, or have no colours.
     #[error("cannot read `{}`: {reason}", .path.display())]
     Contents {

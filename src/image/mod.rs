@@ -7,13 +7,14 @@
 //!
 //! | format | write | read | pixels |
 //! |---|---|---|---|
-//! | OpenEXR | [`write_exr`] | [`Image::read`] | linear `f32`, with variance and layers |
+//! | OpenEXR (feature `exr`) | [`write_exr`] | [`Image::read`] | linear `f32`, with variance and layers |
 //! | PNG | [`write_png`], [`encode_png`] | [`Image::read`] | 8-bit codes of a [`Display`] curve; 16 bits are read, too |
 //! | PFM | [`write_pfm`] | [`Image::read`] | linear `f32`, colour alone |
 //!
 //! Files are written whole or not at all: see [`write_file`]. Colours are linear Rec. 709 with white point D65.
 //!
 //! ```
+//! # #[cfg(feature = "exr")] {
 //! use lobe::Spectrum;
 //! use lobe::glam::UVec2;
 //! use lobe::image::{Display, Encoding, Image, Metadata, Picture, write_exr, write_png};
@@ -33,6 +34,7 @@
 //! assert_eq!(shown.encoding, Encoding::Srgb);
 //! assert_eq!(shown.pixels[0], Spectrum::new(188.0 / 255.0, 0.0, 1.0));
 //! # std::fs::remove_dir_all(&folder)?;
+//! # }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -40,6 +42,7 @@ mod atomic;
 mod decoded;
 mod display;
 mod error;
+#[cfg(feature = "exr")]
 mod exr;
 mod metadata;
 mod pfm;
@@ -52,6 +55,7 @@ pub use atomic::{check_writable, write_file};
 pub use decoded::{Encoding, Image};
 pub use display::Display;
 pub use error::{EncodeError, ReadError, WriteError};
+#[cfg(feature = "exr")]
 pub use exr::write_exr;
 pub use metadata::Metadata;
 pub use pfm::write_pfm;
