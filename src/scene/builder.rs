@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::model::{Scene, Shape};
 use super::settings::Emission;
-use crate::accel::Accel;
+use crate::accel::{Accel, InstructionSet};
 use crate::clock::Stopwatch;
 use crate::light::{AreaLight, Light};
 use crate::material::{Material, MatteMaterial};
@@ -52,6 +52,7 @@ pub struct SceneBuilder {
     materials: BTreeMap<String, Arc<dyn Material>>,
     shapes: Vec<NewShape>,
     lights: Vec<Arc<dyn Light>>,
+    instruction_set: InstructionSet,
 }
 
 impl Scene {
@@ -128,6 +129,12 @@ impl SceneBuilder {
         self
     }
 
+    /// Chooses the instruction set that the acceleration structure is built for and rays are traced with, for
+    /// measuring and tests. Default: the fastest that the processor has. All give the same hits.
+    pub fn instruction_set(self, instruction_set: InstructionSet) -> Self {
+        Self { instruction_set, ..self }
+    }
+
     /// Checks the scene and builds its acceleration structure.
     ///
     /// # Errors
@@ -167,7 +174,7 @@ impl SceneBuilder {
         }
         let is_flat_lambertian = shapes.iter().all(|shape| shape.flat_lambertian.is_some());
         let start = Stopwatch::start();
-        let accel = Accel::build(&meshes);
+        let accel = Accel::build_for(self.instruction_set, &meshes);
         Ok(Scene {
             shapes,
             meshes,

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{Affine3A, Quat, UVec2};
 
 use super::sections::{self, SECTIONS};
+use crate::accel::InstructionSet;
 use crate::camera::Camera;
 use crate::image::Window;
 use crate::light::Light;
@@ -136,6 +137,7 @@ fn shape(table: Table) -> Result<Shape, Fault> {
 pub fn build(
     description: Description,
     document: &Document,
+    instruction_set: InstructionSet,
 ) -> Result<(Scene, View, RenderSettings, Vec<ObjReport>), Fault> {
     let Description { view, settings, materials, lights, shapes } = description;
     let fault = |error: SceneError| {
@@ -152,7 +154,9 @@ pub fn build(
             return Err(Fault { mark: *mark, problem });
         }
     }
-    let builder = lights.into_iter().fold(Scene::builder(), SceneBuilder::light);
+    let builder = lights
+        .into_iter()
+        .fold(Scene::builder().instruction_set(instruction_set), SceneBuilder::light);
     let mut builder = materials
         .into_iter()
         .fold(builder, |builder, (name, material)| builder.material(name, material));

@@ -17,6 +17,7 @@ use std::path::Path;
 pub use error::{Place, SceneFileError, TextProblem};
 pub use sections::SECTIONS;
 
+use crate::accel::InstructionSet;
 use crate::clock::Stopwatch;
 use crate::params::{Fault, Mark};
 use crate::render::RenderSettings;
@@ -51,9 +52,22 @@ pub struct LoadReport {
 /// # Errors
 /// If the file cannot be read, and those of [`parse_scene`]. Messages name the file by `path`.
 pub fn read_scene(path: &Path, overrides: &[&str]) -> Result<LoadedScene, SceneFileError> {
+    read_scene_for(InstructionSet::fastest(), path, overrides)
+}
+
+/// [`read_scene`] for an instruction set other than the fastest: see
+/// [`SceneBuilder::instruction_set`](crate::scene::SceneBuilder::instruction_set).
+///
+/// # Errors
+/// Those of [`read_scene`].
+pub fn read_scene_for(
+    instruction_set: InstructionSet,
+    path: &Path,
+    overrides: &[&str],
+) -> Result<LoadedScene, SceneFileError> {
     let start = Stopwatch::start();
     let text = read_text(path)?;
-    let mut loaded = parse_scene(path, &text, overrides)?;
+    let mut loaded = parse_for(instruction_set, path, &text, overrides)?;
     loaded.report.seconds = start.seconds() - loaded.scene.build_seconds();
     Ok(loaded)
 }
@@ -113,11 +127,21 @@ pub fn parse_scene(
     text: &str,
     overrides: &[&str],
 ) -> Result<LoadedScene, SceneFileError> {
+    parse_for(InstructionSet::fastest(), path, text, overrides)
+}
+
+fn parse_for(
+    instruction_set: InstructionSet,
+    path: &Path,
+    text: &str,
+    overrides: &[&str],
+) -> Result<LoadedScene, SceneFileError> {
     let start = Stopwatch::start();
     let source = Source::new(path, text, overrides);
     let document = source.parse()?;
     let description = source.place(assemble::describe(&document))?;
-    let (scene, view, settings, meshes) = source.place(assemble::build(description, &document))?;
+    let (scene, view, settings, meshes) =
+        source.place(assemble::build(description, &document, instruction_set))?;
     let seconds = start.seconds() - scene.build_seconds();
     Ok(LoadedScene { scene, view, settings, report: LoadReport { seconds, meshes } })
 }

@@ -179,9 +179,14 @@ fn the_page_of_the_scene_format_is_what_the_registries_say() {
 #[test]
 fn usage_errors_have_exit_code_2() {
     let folder = Folder::new("usage");
-    for arguments in
-        ["", "rneder s.toml", "render", "render s.toml --spp 0", "render s.toml --threads 0"]
-    {
+    for arguments in [
+        "",
+        "rneder s.toml",
+        "render",
+        "render s.toml --spp 0",
+        "render s.toml --threads 0",
+        "render s.toml --isa sse9",
+    ] {
         let output = folder.run(arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments}");
         assert!(!output.stderr.is_empty());

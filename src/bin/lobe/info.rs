@@ -10,7 +10,7 @@ use lobe::render::{RenderSettings, SamplerSettings};
 use lobe::scene::View;
 use lobe::scene_file::LoadedScene;
 
-use crate::scene::SceneArguments;
+use crate::scene::{IsaArgument, SceneArguments};
 use crate::summary::Summary;
 
 const EXAMPLES: &str = "\
@@ -25,10 +25,13 @@ Examples:
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
+
+    #[command(flatten)]
+    isa: IsaArgument,
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
-    let LoadedScene { scene, view, settings, report } = arguments.scene.load()?;
+    let LoadedScene { scene, view, settings, report } = arguments.scene.load_for(&arguments.isa)?;
     let mut summary = Summary::default();
     summary.add("scene", arguments.scene.path.display());
     add_view(&mut summary, &view);
@@ -49,6 +52,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     if !accel.bounds().is_empty() {
         summary.add("bounds", format!("{} to {}", accel.bounds().min, accel.bounds().max));
     }
+    summary.add("isa", accel.instruction_set());
     summary.add("nodes", accel.node_count());
     summary.add("depth", format!("{} nodes", accel.depth()));
     let meshes: usize = scene.shapes().map(|(_, mesh)| memory(mesh)).sum();

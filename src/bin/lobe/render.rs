@@ -14,7 +14,7 @@ use lobe::{RenderOptions, render};
 
 use crate::output::{Format, Output};
 use crate::progress::Bar;
-use crate::scene::SceneArguments;
+use crate::scene::{IsaArgument, SceneArguments};
 use crate::summary::Summary;
 
 const EXAMPLES: &str = r#"Examples:
@@ -33,6 +33,9 @@ normal, depth and albedo of the first hits."#;
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
+
+    #[command(flatten)]
+    isa: IsaArgument,
 
     /// A file to write, .png or .exr; may be repeated [default: both, named after the scene]
     #[arg(short, long, value_name = "FILE")]
@@ -71,7 +74,8 @@ fn seconds(text: &str) -> Result<Duration, String> {
 
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let outputs = Output::all(&arguments.output, &arguments.scene.path)?;
-    let LoadedScene { scene, view, mut settings, report } = arguments.scene.load()?;
+    let LoadedScene { scene, view, mut settings, report } =
+        arguments.scene.load_for(&arguments.isa)?;
     settings.sampler.seed = arguments.seed.unwrap_or(settings.sampler.seed);
 
     let bar = (!arguments.quiet).then(|| Bar::new(view.film().window().area() as u64));
@@ -106,6 +110,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         summary.add("samples", format!("{} per pixel", rendered.samples_per_pixel));
         summary.add_meshes(&scene);
         summary.add("threads", rendered.threads);
+        summary.add("isa", scene.accel().instruction_set());
         summary.add("load", format!("{:.3} s", report.seconds));
         summary.add("build", format!("{:.3} s", scene.build_seconds()));
         summary.add("render", format!("{:.3} s", rendered.seconds));
