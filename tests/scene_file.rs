@@ -527,6 +527,8 @@ fn names_of_nothing() {
     };
     let cases = [
         ("kd = \"rde\"", "s.toml:3:39: the scene has no texture `rde`; did you mean `red`?"),
+        // Case counts.
+        ("kd = \"Red\"", "s.toml:3:39: the scene has no texture `Red`; did you mean `red`?"),
         ("kd = \"\"", "s.toml:3:39: the scene has no texture ``; expected `red` or `rough`"),
         (
             "bump = \"red\"",

@@ -31,8 +31,7 @@ pub fn bump(displacement: &dyn Texture<f32>, si: &mut SurfaceInteraction) {
     let dpdu = slope(Vec2::X, shading.dpdu, shading.dndu);
     let dpdv = slope(Vec2::Y, shading.dpdv, shading.dndv);
     if let Some(n) = unit_cross(dpdu, dpdv) {
-        // A mirrored parameterisation flips the cross product: the geometric normal decides.
-        let n = if n.dot(si.n()) < 0.0 { -n } else { n };
+        // A mirrored parameterisation flips the cross product: `set_shading` follows the geometric normal.
         si.set_shading(Shading { n, dpdu, dpdv, ..shading });
     }
 }

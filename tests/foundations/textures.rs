@@ -7,7 +7,8 @@ use lobe::geometry::BoundedPoint;
 use lobe::glam::{Vec2, Vec3};
 use lobe::interaction::{Partials, SurfaceInteraction};
 use lobe::material::Material;
-use lobe::texture::{ConstantTexture, Texture};
+use lobe::params::{AnyKey, Key, Value};
+use lobe::texture::{ConstantTexture, Texture, TextureKey};
 use lobe::{MatteMaterial, Spectrum};
 
 const RED: Spectrum = Spectrum::new(0.75, 0.25, 0.125);
@@ -51,7 +52,7 @@ fn everything_that_has_a_value_is_a_texture() {
 
 /// A constant is recognised in any wrapper, so that its surface takes the fast path: shared, behind a
 /// pointer, in a shared material.
-/// Caught: constants looked for by type.
+/// Caught: constants looked for by type; a constant lobe for an infinite value, which hits refuse and count.
 #[test]
 fn constants_are_recognised_everywhere() {
     let constant: Arc<dyn Texture<Spectrum>> = Arc::new(ConstantTexture::new(RED));
@@ -74,8 +75,25 @@ fn constants_are_recognised_everywhere() {
         MatteMaterial::new(RED).with_bump(0.0),
         MatteMaterial::new(|_: &SurfaceInteraction| RED),
         MatteMaterial::new(Spectrum::splat(f32::NAN)),
+        MatteMaterial::new(Spectrum::splat(f32::INFINITY)),
         MatteMaterial::new(Spectrum::BLACK),
     ] {
         assert_eq!(other.constant_lambertian(), None);
+    }
+}
+
+/// The key of a texture accepts any name, and constants in its range.
+/// Caught: names refused, as the key of a plain number does.
+#[test]
+fn texture_keys_accept_names_and_constants() {
+    const SIGMA: Key<f32> = Key::new("sigma", "roughness").range(0.0..=90.0);
+    let key = TextureKey::of(SIGMA);
+    for (value, plain, textured) in [
+        (Value::Text("rough".into()), false, true),
+        (Value::Number("90".into()), true, true),
+        (Value::Number("90.5".into()), false, false),
+        (Value::Boolean(true), false, false),
+    ] {
+        assert_eq!((SIGMA.accepts(&value), key.accepts(&value)), (plain, textured), "{value}");
     }
 }

@@ -1,7 +1,9 @@
 //! Events: flags and index, selection among lobes, and errors of custom lobes.
 
 use lobe::Spectrum;
-use lobe::bxdf::{Bsdf, BxDF, BxdfFlags, BxdfSample, LambertianReflection, Lobe, ScaledBxDF};
+use lobe::bxdf::{
+    Bsdf, BxDF, BxdfFlags, BxdfSample, LambertianReflection, Lobe, OrenNayar, ScaledBxDF,
+};
 use lobe::geometry::{Frame, reflect, refract};
 use lobe::glam::{Vec2, Vec3};
 
@@ -177,6 +179,85 @@ fn lobes_are_drawn_by_albedo_and_none_is_lost() {
     }
 }
 
+/// Lobes whose estimates are all 0 are drawn alike, and their probabilities sum to 1.
+/// Caught: no shares but the uniform tenth.
+#[test]
+fn lobes_that_promise_nothing_are_drawn_alike() {
+    let mirror = Mirror(0.0);
+    let mut bsdf = flat();
+    (0..4).for_each(|_| assert!(bsdf.add(Lobe::Custom(&mirror))));
+    for trial in 0..40 {
+        let uc = (trial as f32 + 0.5) / 40.0;
+        let sample = bsdf.sample_f(view(0.5), uc, Vec2::ZERO, BxdfFlags::all()).unwrap();
+        assert!((sample.pdf - 0.25).abs() < 1e-6, "{uc}: {}", sample.pdf);
+    }
+}
+
+/// A delta event of a lobe that calls itself diffuse stays one: its pdf is a probability, and no density that other
+/// directions could be compared with.
+/// Caught: the event made diffuse after the lobe's flags.
+#[test]
+fn delta_events_stay_delta_events() {
+    struct Mislabelled;
+    impl BxDF for Mislabelled {
+        fn flags(&self) -> BxdfFlags {
+            BxdfFlags::REFLECTION | BxdfFlags::DIFFUSE
+        }
+        fn f(&self, _wo: Vec3, _wi: Vec3) -> Spectrum {
+            Spectrum::BLACK
+        }
+        fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
+            Mirror(1.0).sample_f(wo, uc, u)
+        }
+    }
+    let mut bsdf = flat();
+    bsdf.add(Lobe::Custom(&Mislabelled));
+    let sample = bsdf.sample_f(view(0.5), 0.5, Vec2::ZERO, BxdfFlags::all()).unwrap();
+    assert_eq!(sample.flags, BxdfFlags::REFLECTION | BxdfFlags::SPECULAR);
+    assert_eq!((sample.f, sample.pdf), (Spectrum::splat(1.0 / 0.5), 1.0));
+}
+
+/// `f_and_pdf` is `f` and `pdf`, for a lobe whose value depends on which direction is which: light that crosses a
+/// boundary is such a case.
+/// Caught: the two directions exchanged in `f_and_pdf`.
+#[test]
+fn f_and_pdf_are_f_and_pdf() {
+    struct OneWay;
+    impl BxDF for OneWay {
+        fn flags(&self) -> BxdfFlags {
+            BxdfFlags::REFLECTION | BxdfFlags::DIFFUSE
+        }
+        fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+            Spectrum::new(wo.z, wi.z, 0.5)
+        }
+    }
+    let (wo, wi, all) = (view(0.25), view(0.75), BxdfFlags::all());
+    let mut bsdf = flat();
+    bsdf.add(Lobe::Custom(&OneWay));
+    assert_eq!(bsdf.f(wo, wi, all), Spectrum::new(0.25, 0.75, 0.5));
+    assert_eq!(bsdf.f_and_pdf(wo, wi, all), (bsdf.f(wo, wi, all), bsdf.pdf(wo, wi, all)));
+    assert!(bsdf.pdf(wo, wi, all) > bsdf.pdf(wi, wo, all));
+}
+
+/// Samples that a lobe leaves to the trait are glossy if the lobe is, without a `Bsdf` that would correct them.
+/// Caught: always diffuse.
+#[test]
+fn default_samples_have_the_lobes_spread() {
+    struct Gloss(BxdfFlags);
+    impl BxDF for Gloss {
+        fn flags(&self) -> BxdfFlags {
+            BxdfFlags::REFLECTION | self.0
+        }
+        fn f(&self, _wo: Vec3, _wi: Vec3) -> Spectrum {
+            Spectrum::WHITE
+        }
+    }
+    for spread in [BxdfFlags::DIFFUSE, BxdfFlags::GLOSSY] {
+        let sample = Gloss(spread).sample_f(view(0.5), 0.5, Vec2::splat(0.5)).unwrap();
+        assert_eq!(sample.flags, BxdfFlags::REFLECTION | spread);
+    }
+}
+
 /// The remainder of `uc` is uniform again within the selected lobe, as three lobes show.
 /// Caught: `uc` handed on as it came; the rest divided by the wrong share.
 #[test]
@@ -280,12 +361,22 @@ fn cosines_come_from_the_frame() {
     }
 }
 
-/// A dimmed lobe is drawn less often.
-/// Caught: the scale left out of the estimate.
+/// A diffuser's estimate is its reflectance, rough or not.
+/// Caught: the largest band exchanged for the rest; a factor of the roughness.
+#[test]
+fn diffusers_estimate_their_reflectance() {
+    let r = Spectrum::new(0.25, 0.75, 0.5);
+    assert_eq!(LambertianReflection::new(r).albedo_estimate(view(0.5)), 0.75);
+    assert_eq!(OrenNayar::new(r, 60.0).albedo_estimate(view(0.5)), 0.75);
+}
+
+/// A dimmed lobe is drawn less often, and looks at `uc` if the lobe does.
+/// Caught: the scale left out of the estimate; `uses_uc` always false.
 #[test]
 fn scaled_lobes_scale_their_estimate() {
     let grey = LambertianReflection::new(Spectrum::splat(0.5));
     let dimmed = ScaledBxDF::new(grey, Spectrum::new(0.25, 0.5, 0.125));
     assert_eq!(dimmed.albedo_estimate(view(0.5)), 0.25);
-    assert_eq!(dimmed.uses_uc(), grey.uses_uc());
+    assert!(!dimmed.uses_uc());
+    assert!(ScaledBxDF::new(Glass(Writes::Events), Spectrum::WHITE).uses_uc());
 }

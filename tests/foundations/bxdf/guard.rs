@@ -77,6 +77,21 @@ fn bad_directions_give_no_sample() {
     }
 }
 
+/// A lobe that samples a side which its flags do not name gives black there, and is counted, alone and beside
+/// another lobe.
+/// Caught: no count; the value of a single lobe kept.
+#[test]
+fn directions_on_the_wrong_side_are_counted() {
+    let lobe = Broken { wi: Vec3::NEG_Z, ..Broken::with_f(0.5) };
+    for lobes in [1, 2] {
+        let mut bsdf = flat(&lobe);
+        (1..lobes).for_each(|_| assert!(bsdf.add(Lobe::Custom(&lobe))));
+        let sample = bsdf.sample_f(view(0.5), UC, U, BxdfFlags::all()).unwrap();
+        assert!(sample.f.is_black(), "{lobes} lobes");
+        assert_eq!(bsdf.rejected(), 1, "{lobes} lobes");
+    }
+}
+
 /// Oren-Nayar between two directions that are almost along the surface leaves the range of f32.
 /// Caught: the guard left out of `f`.
 #[test]
@@ -89,7 +104,7 @@ fn overflow_of_a_real_model_is_caught() {
 }
 
 /// No lobe is called with a `wo` exactly parallel to the surface, +0 or -0, in any frame.
-/// Caught: the check left out of each of the four questions.
+/// Caught: the check left out of each of the five questions.
 #[test]
 fn directions_along_the_surface_reach_no_lobe() {
     let lobe = Counting::default();
@@ -102,6 +117,7 @@ fn directions_along_the_surface_reach_no_lobe() {
             // The side of wi is undefined here, so both are tested.
             assert!(bsdf.f(wo, n, all).is_black() && bsdf.f(wo, -n, all).is_black(), "{n}, {wo}");
             assert_eq!(bsdf.pdf(wo, n, all), 0.0, "{n}, {wo}");
+            assert_eq!(bsdf.f_and_pdf(wo, n, all), (Spectrum::BLACK, 0.0), "{n}, {wo}");
             assert!(bsdf.sample_f(wo, UC, U, all).is_none(), "{n}, {wo}");
             assert!(bsdf.rho_hd(wo, &[UC], &[U], all).is_black(), "{n}, {wo}");
             assert_eq!(lobe.calls(), 0, "{n}, {wo}");

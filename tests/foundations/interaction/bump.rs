@@ -71,6 +71,20 @@ fn waves_tilt_a_plane() {
     }
 }
 
+/// So far from 0 that a fixed step would be lost to rounding, a slope is still found: a ramp at u = 10⁵.
+/// Caught: a step that does not grow with u.
+#[test]
+fn a_ramp_tilts_a_plane_far_from_zero() {
+    for u in [1e5, -1e5] {
+        let mesh = plane(1.0, u, 1.0);
+        let ramp = |si: &SurfaceInteraction| (0.1 * (f64::from(si.uv().x) - f64::from(u))) as f32;
+        let mut si = SurfaceInteraction::on_triangle(&mesh, 0, [0.25, 0.25, 0.5], Vec3::Z);
+        bump(&ramp, &mut si);
+        let truth = Vec3::new(-0.1, 0.0, 1.0).normalize();
+        assert!((si.shading_n() - truth).length() < 1e-3, "u {u}: {}", si.shading_n());
+    }
+}
+
 /// With vertex normals the displaced surface is p + d n, whose derivatives take in those of n. Caught:
 /// d ∂n/∂u left out; the geometric normal displaced along.
 #[test]

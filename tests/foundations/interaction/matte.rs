@@ -66,12 +66,14 @@ fn sigma_chooses_the_lobe() {
     assert!(close(f(&textured), rough(80.0)));
 }
 
-/// The reflectance is brought into [0, 1] per band, and a black surface has no lobe. Caught: no clamp; a lobe
-/// of R = 0.
+/// The reflectance is brought into [0, 1] per band, and a black surface has no lobe. Caught: no clamp, at
+/// hits or in the constant lobe; a lobe of R = 0.
 #[test]
 fn reflectance_is_clamped() {
     let expected = LambertianReflection::new(Spectrum::new(1.0, 0.0, 0.5)).f(WO, WI);
-    assert!(close(f(&MatteMaterial::new([2.0, -1.0, 0.5])), expected));
+    let bright = MatteMaterial::new([2.0, -1.0, 0.5]);
+    assert!(close(f(&bright), expected));
+    assert!(close(bright.constant_lambertian().unwrap().f(WO, WI), expected));
     assert!(close(
         f(&MatteMaterial::new(Arc::new(OfU(|u| Spectrum::new(u + 1.0, -u, 0.5))))),
         expected

@@ -44,6 +44,25 @@ fn vertex_normals_shade() {
     }
 }
 
+/// A hit that is moved for a texture keeps its place and all derivatives, those of the shading normal too.
+/// Caught: the place lost; derivatives of the geometric normal, which are 0, in place of the others.
+#[test]
+fn moved_hits_keep_what_a_texture_may_ask() {
+    for trial in 0..1000 {
+        let mut rng = Rng::new(911, trial);
+        let mut mesh = random_triangle(&mut rng);
+        let n = mesh.geometric_normal(0);
+        mesh.normals = (0..3).map(|_| (n + 0.6 * rng.direction()).normalize()).collect();
+        let si = SurfaceInteraction::on_triangle(&mesh, 0, rng.barycentric(), rng.direction());
+        let (p, uv, n) = (rng.direction(), rng.square(), rng.direction());
+        let moved = si.moved_to(p, uv, n);
+        assert_eq!((moved.p(), moved.uv(), moved.n(), moved.wo()), (p, uv, n, si.wo()));
+        assert_eq!((moved.place(), moved.partials()), (si.place(), si.partials()), "trial {trial}");
+        assert_eq!(moved.shading(), Shading { n, ..si.shading() }, "trial {trial}");
+        assert_ne!(moved.shading().dndu, Vec3::ZERO, "trial {trial}");
+    }
+}
+
 /// Without normals, with a corner that has none, and where they cancel, the geometric normal shades.
 /// Caught: normals of zero interpolated with the others; a sum of zero normalised.
 #[test]
