@@ -52,12 +52,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     if !accel.bounds().is_empty() {
         summary.add("bounds", format!("{} to {}", accel.bounds().min, accel.bounds().max));
     }
-    summary.add("isa", accel.instruction_set());
     summary.add("nodes", accel.node_count());
     summary.add("depth", format!("{} nodes", accel.depth()));
     let meshes: usize = scene.shapes().map(|(_, mesh)| memory(mesh)).sum();
     summary.add("tree-memory", format!("{:.2} MiB", accel.memory() as f64 / MIB));
     summary.add("mesh-memory", format!("{:.2} MiB", meshes as f64 / MIB));
+    summary.add("isa", accel.instruction_set());
     summary.add("load", format!("{:.3} s", report.seconds));
     summary.add("build", format!("{:.3} s", scene.build_seconds()));
     summary.print()?;
