@@ -145,6 +145,7 @@ fn ranges_are_open_or_closed() {
         assert!(!outside.iter().any(reads), "{words}");
         assert!(reads(&f32::example(key.limits())), "{words}");
     }
+    assert!(!Limits::NONE.contains(f64::NAN) && Limits::NONE.contains(0.0));
     let whole: Key<u32> = Key::new("n", "").above(1.0).at_most(9.5);
     assert_eq!(u32::expected(whole.limits()), "a whole number from 2 to 9");
 }

@@ -232,6 +232,8 @@ fn text_that_is_not_toml() {
             "s.toml:2:11: not valid TOML: string values must be quoted, expected literal string",
         ),
         ("[film]\n[film]", "s.toml:2:2: not valid TOML: duplicate key"),
+        // A byte order mark is no column.
+        ("\u{FEFF}[film", "s.toml:1:6: not valid TOML: unclosed table, expected `]`"),
     ]);
     let deep = format!("a = {}", "[".repeat(100_000));
     assert_eq!(

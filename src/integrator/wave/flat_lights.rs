@@ -19,16 +19,20 @@ pub struct LightSamples {
 }
 
 impl LightSamples {
-    /// Samples of one light.
+    /// Samples of a light that every hit samples.
     #[inline(always)]
-    pub fn new(rules: &PathRules, light: usize, mut samples: LightSamplesX4) -> Self {
-        samples.pdf *= rules.lights.probability(light);
+    pub fn of_one(rules: &PathRules, light: usize, samples: LightSamplesX4) -> Self {
         let weighed = if rules.uses_mis(light) { BVec4A::TRUE } else { BVec4A::FALSE };
         Self { samples, weighed }
     }
 
-    /// A sample for each of the points `p`, from the light and the sample value in `drawn`.
-    pub fn of_any(rules: &PathRules, scene: &Scene, p: Vec3x4, drawn: [(usize, Vec2); 4]) -> Self {
+    /// A sample for each of the points `p`, from the light that was drawn for it and the sample value, in `drawn`.
+    pub fn of_drawn(
+        rules: &PathRules,
+        scene: &Scene,
+        p: Vec3x4,
+        drawn: [(usize, Vec2); 4],
+    ) -> Self {
         let mut samples = one_by_one(p, |i, p| {
             let (light, u) = drawn[i];
             scene.lights()[light].sample_li(p, u)

@@ -75,7 +75,10 @@ impl Vertices<'_> {
         if rules.lights.draws() {
             for (i, hits) in block.iter().enumerate().filter(|(_, hits)| hits.sound) {
                 let drawn = four(|lane| self.choose_light(slot, vertex + 4 * i + lane));
-                self.push_shadow_rays(hits, &LightSamples::of_any(rules, scene, hits.at.p, drawn));
+                self.push_shadow_rays(
+                    hits,
+                    &LightSamples::of_drawn(rules, scene, hits.at.p, drawn),
+                );
             }
             return;
         }
@@ -91,7 +94,7 @@ impl Vertices<'_> {
         let count = block.len();
         scene.lights()[light].sample_li_x4(&points[..count], &u[..count], &mut samples[..count]);
         for (hits, samples) in block.iter().zip(&samples).filter(|(hits, _)| hits.sound) {
-            self.push_shadow_rays(hits, &LightSamples::new(rules, light, *samples));
+            self.push_shadow_rays(hits, &LightSamples::of_one(rules, light, *samples));
         }
     }
 

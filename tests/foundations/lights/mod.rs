@@ -4,6 +4,7 @@ mod choice;
 mod consistency;
 mod extremes;
 mod irradiance;
+mod point;
 mod shadow;
 mod surroundings;
 
