@@ -10,8 +10,9 @@
 //! - [`texture`], values over a surface; [`bxdf`], reflection models and their sum at a hit, [`bxdf::Bsdf`];
 //!   [`material`], which turns textures into lobes; [`light`];
 //! - [`accel`], rays against all triangles; [`camera`]; [`film`], filters and sums of samples;
-//! - [`scene`], what is rendered and how it is seen; [`scene_file`], scenes from TOML;
-//! - [`integrator`], how light is computed; [`render`](mod@render), the loop;
+//! - [`scene`], what is rendered and how it is seen; [`integrator`], how light is computed;
+//!   [`render`](mod@render), the loop;
+//! - [`scene_file`], scenes from TOML;
 //! - [`metrics`], errors between images, convergence and charts.
 //!
 //! # Features

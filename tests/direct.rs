@@ -7,7 +7,9 @@ use std::f64::consts::PI;
 
 use lobe::glam::{DVec3, UVec2, Vec3};
 use lobe::integrator::DirectIntegrator;
+use lobe::light::{LightStrategy, SkyLight};
 use lobe::render::{Sampling, render_with};
+use lobe::scene::Emission;
 use lobe::{
     MatteMaterial, PerspectiveSettings, PointLight, RenderOptions, Scene, Spectrum, TriangleMesh,
     render,
@@ -171,4 +173,25 @@ fn two_lights_add_up() {
             "pixel {place}: {found:?} instead of {sum:?}"
         );
     }
+}
+
+/// A ray that cannot contribute is not traced: with strategy `light`, a matte surface sends none to lamps and sky. Caught:
+/// last rays that are traced for nothing.
+#[test]
+fn light_sampling_alone_traces_no_scattered_rays() {
+    let emission = Emission { radiance: Spectrum::WHITE, two_sided: true };
+    let scene = ball_over_floor()
+        .lamp("lamp", floor(3.0, 1.0), emission)
+        .light(SkyLight::new(Spectrum::WHITE))
+        .build()
+        .unwrap();
+    let scattered = |strategy| {
+        let settings = independent(4, DirectIntegrator { strategy });
+        let view = chapter_view(UVec2::splat(16));
+        let counters = render(&scene, &view, &settings, &RenderOptions::default()).unwrap().counters;
+        assert!(counters.shadow_rays > 0);
+        counters.scattered_rays
+    };
+    assert!(scattered(LightStrategy::Mis) > 0);
+    assert_eq!(scattered(LightStrategy::Light), 0);
 }

@@ -179,4 +179,6 @@ fn paths_are_relative_to_the_folder_of_their_source() {
         let read = FILES.read(root.table("file").unwrap(), |kind, table| (kind.read)(table));
         assert_eq!(read.unwrap(), std::path::PathBuf::from(path));
     }
+    let both = ["x.obj", "/y.obj"].map(std::path::PathBuf::from).placed("a".as_ref());
+    assert_eq!(both, ["a/x.obj", "/y.obj"].map(std::path::PathBuf::from));
 }

@@ -441,3 +441,36 @@ fn focus_may_be_anywhere() {
         assert!(color.iter().all(|c| !c.is_black()), "focused at {focal_distance}");
     }
 }
+
+/// Shades the first column of the image as not finite.
+struct BlindColumn;
+
+impl Integrator for BlindColumn {
+    fn prepare<'a>(&'a self, _: &'a Scene) -> Box<dyn Estimator + 'a> {
+        Box::new(Self)
+    }
+}
+
+impl Estimator for BlindColumn {
+    fn shade(&self, _: &dyn Sampler, wave: &mut Wave) {
+        for (id, radiance) in wave.ids.iter().zip(&mut wave.radiance) {
+            *radiance = Spectrum::splat(if id.pixel.x == 0 { f32::NAN } else { 1.0 });
+        }
+    }
+
+    fn shadow_rays(&self) -> usize {
+        0
+    }
+}
+
+/// Seen to fail with only those pixels counted that a cancelled render did not reach.
+#[test]
+fn pixels_whose_samples_are_all_left_out_are_empty() {
+    let scene = Scene::builder().build().unwrap();
+    let view = chapter_view(UVec2::new(20, 15));
+    let settings = independent(4, BlindColumn);
+    let rendered = render(&scene, &view, &settings, &RenderOptions::default()).unwrap();
+    assert_eq!((rendered.empty_pixels, rendered.non_finite), (15, 60));
+    assert_eq!(rendered.picture.color[0], Spectrum::BLACK);
+    assert_eq!(rendered.picture.color[1], Spectrum::WHITE);
+}

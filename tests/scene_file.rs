@@ -275,7 +275,7 @@ fn unknown_keys() {
         ),
         (
             "[film]\nfilter = \"tent\"\nfilter_sigma = 2",
-            "s.toml:3:1: unknown key `filter_sigma` in [film]; expected `filter`, `filter_radius`, `resolution`, `crop` or `display`",
+            "s.toml:3:1: unknown key `filter_sigma` in [film] of filter \"tent\"; expected `filter`, `filter_radius`, `resolution`, `crop` or `display`",
         ),
         (
             "[integrator]\ntype = \"direct\"\nmax_depth = 2",

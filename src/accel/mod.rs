@@ -66,15 +66,15 @@ pub struct Accel {
 }
 
 impl Accel {
-    /// The most triangles that a tree can be built over. One more is the sentinel of empty slots.
-    pub const MOST_TRIANGLES: usize = MAX_TRIANGLES - 1;
+    /// Maximum number of triangles.
+    pub const MAX_TRIANGLES: usize = MAX_TRIANGLES;
 
     /// Builds the tree over all triangles of all meshes, for the fastest instruction set, on as many threads as the
     /// system offers. The tree does not depend on their number. Triangles without area are left out: no ray can hit
     /// them. The meshes must have passed [`TriangleMesh::check`].
     ///
     /// # Panics
-    /// If there are more than [`Accel::MOST_TRIANGLES`].
+    /// If there are more than [`Accel::MAX_TRIANGLES`].
     pub fn build(meshes: &[TriangleMesh]) -> Self {
         Self::build_for(InstructionSet::fastest(), meshes)
     }
@@ -83,10 +83,10 @@ impl Accel {
     /// may differ from one to another.
     ///
     /// # Panics
-    /// If there are more than [`Accel::MOST_TRIANGLES`].
+    /// If there are more than [`Accel::MAX_TRIANGLES`].
     pub fn build_for(instruction_set: InstructionSet, meshes: &[TriangleMesh]) -> Self {
         let count: usize = meshes.iter().map(|mesh| mesh.indices.len()).sum();
-        assert!(count <= Self::MOST_TRIANGLES, "{count} triangles are more than a tree can hold");
+        assert!(count <= Self::MAX_TRIANGLES, "{count} triangles are more than a tree can hold");
         let bvh = build::build(meshes, build::available_threads(), instruction_set.leaf_lanes());
         Self { bvh, instruction_set }
     }

@@ -120,8 +120,9 @@ impl<'a> Bsdf<'a> {
         w.dot(self.frame.n).abs()
     }
 
-    /// Number of errors since construction: lobes that did not fit, and results of lobes that were dropped or
-    /// replaced by black because they were negative, not finite, or on a side that the lobe's flags exclude.
+    /// Number of errors since construction: a frame that was not orthonormal, lobes that did not fit, transmissions
+    /// without an index, and results of lobes that were dropped or replaced by black because they were negative, not
+    /// finite, or on a side that the lobe's flags exclude.
     pub fn rejected(&self) -> u32 {
         self.rejected.get()
     }
@@ -159,7 +160,8 @@ impl<'a> Bsdf<'a> {
     /// `[0, 1)²` the direction.
     ///
     /// `f` and `pdf` of the sample are those of all matching lobes together, unless the event is specular.
-    /// `None` if no lobe matches, or if the selected one returns no sample.
+    /// `None` if no lobe matches, if the selected one returns no sample, or if the sample's direction is not finite or
+    /// its density is 0 or invalid.
     pub fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2, flags: BxdfFlags) -> Option<BxdfSample> {
         let local_wo = self.frame.to_local(wo);
         if local_wo.z == 0.0 {

@@ -10,7 +10,7 @@ use crate::spectrum::Spectrum;
 /// Ideal diffuse reflection: the same radiance in all directions (PBRT 3rd edition, section 8.3).
 ///
 /// f = R/π. Multiplied by cos θ and integrated over the hemisphere, f has to give the reflectance R, and
-/// ∫ cos θ dω = π (formula 5.1 of the chapter).
+/// ∫ cos θ dω = π (PBRT 3rd edition, section 8.3).
 #[doc(alias = "lambert")]
 #[doc(alias = "diffuse")]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,12 +47,12 @@ impl BxDF for LambertianReflection {
         self.r.max_component()
     }
 
-    /// R for every direction (formula 5.10 of the chapter).
+    /// R for every direction.
     fn rho_hd(&self, _wo: Vec3, _uc: &[f32], _u: &[Vec2]) -> Spectrum {
         self.r
     }
 
-    /// R (formula 5.11 of the chapter).
+    /// R.
     fn rho_hh(&self, _u1: &[Vec2], _uc: &[f32], _u2: &[Vec2]) -> Spectrum {
         self.r
     }

@@ -123,7 +123,6 @@ impl BxdfSample {
 /// let sample = HalfMoon.sample_f(wo, 0.5, Vec2::new(0.9, 0.6)).unwrap();
 /// assert_eq!(sample.pdf, HalfMoon.pdf(wo, sample.wi));
 /// assert_eq!(sample.f, HalfMoon.f(wo, sample.wi));
-/// assert!(HalfMoon.matches(BxdfFlags::all()) && !HalfMoon.matches(BxdfFlags::REFLECTION));
 /// ```
 ///
 /// A lobe with two events, one of which `uc` selects:
@@ -234,12 +233,6 @@ pub trait BxDF: Send + Sync {
         };
         let count = u1.len().min(uc.len()).min(u2.len());
         mean(u1.iter().zip(uc).zip(u2).filter_map(estimate), count)
-    }
-
-    /// Whether all flags of this lobe are among those in `wanted`.
-    #[inline]
-    fn matches(&self, wanted: BxdfFlags) -> bool {
-        wanted.contains(self.flags())
     }
 }
 

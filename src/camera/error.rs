@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum CameraError {
     /// A setting is infinite, NaN, or farther out than
-    /// [`LARGEST_COORDINATE`](crate::geometry::float::LARGEST_COORDINATE).
+    /// [`MAX_COORDINATE`](crate::geometry::float::MAX_COORDINATE).
     #[error("the camera's {0} is not finite, or is beyond 1e12")]
     OutOfRange(&'static str),
     /// There is no direction of view.

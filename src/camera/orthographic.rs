@@ -11,7 +11,7 @@ use super::placement::{
 };
 use super::traits::{Camera, Read};
 use crate::geometry::Ray;
-use crate::geometry::float::LARGEST_COORDINATE;
+use crate::geometry::float::MAX_COORDINATE;
 use crate::params::{AnyKey, Fault, Key, Kind, Table};
 use crate::sampling::concentric_disk;
 
@@ -76,7 +76,7 @@ impl OrthographicCamera {
         check_resolution(resolution)?;
         let pixel = f64::from(extent) / f64::from(resolution.min_element());
         let longer_side = pixel * f64::from(resolution.max_element());
-        if longer_side.is_nan() || longer_side > f64::from(LARGEST_COORDINATE) {
+        if longer_side.is_nan() || longer_side > f64::from(MAX_COORDINATE) {
             return Err(CameraError::OutOfRange("extent"));
         }
         if !EXTENT.limits().contains_f32(extent) {

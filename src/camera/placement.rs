@@ -3,7 +3,7 @@
 use glam::{DVec3, UVec2, Vec3};
 
 use super::error::CameraError;
-use crate::geometry::float::LARGEST_COORDINATE;
+use crate::geometry::float::MAX_COORDINATE;
 use crate::params::{AnyKey, Choice, Fault, Key, Table};
 
 /// On which side of the view the right of the image lies: how a world's axes were meant.
@@ -70,7 +70,7 @@ impl Axes {
         up: Vec3,
         handedness: Handedness,
     ) -> Result<Self, CameraError> {
-        let within = |v: Vec3| v.abs().max_element() <= LARGEST_COORDINATE && v.is_finite();
+        let within = |v: Vec3| v.abs().max_element() <= MAX_COORDINATE && v.is_finite();
         for (name, in_range) in
             [("eye", within(eye)), ("look_at", within(look_at)), ("up", up.is_finite())]
         {
@@ -94,7 +94,7 @@ impl Axes {
 
 /// Checks a lens: its radius and the distance of the plane in focus.
 pub(super) fn check_lens(radius: f32, focal_distance: f32) -> Result<(), CameraError> {
-    if radius.is_nan() || radius > LARGEST_COORDINATE {
+    if radius.is_nan() || radius > MAX_COORDINATE {
         return Err(CameraError::OutOfRange("lens_radius"));
     }
     if !focal_distance.is_finite() {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{UVec2, Vec2, Vec3};
 
 use crate::geometry::Ray;
-use crate::geometry::float::LARGEST_COORDINATE;
+use crate::geometry::float::MAX_COORDINATE;
 use crate::params::{Fault, Table};
 
 /// How a kind of camera is read, for images of this resolution.
@@ -15,7 +15,7 @@ pub type Read = fn(&Table, UVec2) -> Result<Arc<dyn Camera>, Fault>;
 ///
 /// A ray counts from its `t_min` to its `t_max`. Its direction may have any length but zero: before it is traced, it
 /// is normalized unless it has unit length to rounding. A ray is refused whose origin is not finite or beyond
-/// [`LARGEST_COORDINATE`], whose direction is zero or not finite, or whose `t_min` or `t_max` is NaN: it is not
+/// [`MAX_COORDINATE`], whose direction is zero or not finite, or whose `t_min` or `t_max` is NaN: it is not
 /// traced, its sample is left out of the pixel, and
 /// [`Counters::refused_camera_rays`](crate::integrator::Counters::refused_camera_rays) counts it.
 pub trait Camera: Send + Sync {
@@ -75,7 +75,7 @@ impl<C: Camera + ?Sized> Camera for Arc<C> {
 #[inline]
 pub(crate) fn prepare(ray: &mut Ray) -> bool {
     // A comparison with NaN is false.
-    let in_range = ray.o.abs().cmple(Vec3::splat(LARGEST_COORDINATE)).all()
+    let in_range = ray.o.abs().cmple(Vec3::splat(MAX_COORDINATE)).all()
         && !ray.t_min.is_nan()
         && !ray.t_max.is_nan();
     let is_unit = (ray.d.length_squared() - 1.0).abs() <= UNIT_TOLERANCE;

@@ -123,6 +123,11 @@ impl Film {
         self.non_finite
     }
 
+    /// Number of pixels without any sample.
+    pub fn empty_pixels(&self) -> u64 {
+        self.pixels.iter().filter(|sum| sum.samples == 0).count() as u64
+    }
+
     /// Adds a sample of the radiance at `pixel`, which must lie in the window. `set` is the independent set that the
     /// sample belongs to: used by [`Variance::OfSets`] only, and less than its number of sets.
     #[inline]

@@ -10,7 +10,7 @@ pub const ONE_MINUS_EPSILON: f32 = 1.0 - UNIT_ROUNDOFF;
 ///
 /// The ray-triangle test multiplies three lengths, and far beyond this limit the product overflows
 /// f32. For lengths below about 1e-12 it underflows to zero.
-pub const LARGEST_COORDINATE: f32 = 1e12;
+pub const MAX_COORDINATE: f32 = 1e12;
 
 /// The bound γₙ = n u / (1 - n u) on the relative error that `n` rounded operations in a row
 /// accumulate, with u = [`UNIT_ROUNDOFF`].

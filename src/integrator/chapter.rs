@@ -1,4 +1,5 @@
-//! [`ChapterIntegrator`]: the shading of the chapter that this crate started from.
+//! [`ChapterIntegrator`]: the shading of "PBRT series 8: a first look at reflection and materials" (Dezeming Family 2021,
+//! in Chinese, <https://dezeming.top/>), whose section 6 it follows.
 
 use std::sync::Arc;
 
@@ -12,12 +13,12 @@ use crate::params::{Fault, Key, Kind, Table};
 use crate::sampling::Sampler;
 use crate::scene::Scene;
 
-/// Local shading as in the chapter, which has no light transport yet: the sum of pdf · f · 3 over the
-/// directions to all lights, without shadows, falloff or intensity (section 6.2).
+/// Local shading without light transport: the sum of pdf · f · 3 over the directions to all lights, without shadows,
+/// falloff or intensity (Dezeming Family 2021, "PBRT series 8", section 6.2).
 ///
 /// The result is a brightness without a unit, not radiance. On a Lambertian surface it is 3 cos θ R / π².
-/// With `highlight` it is multiplied by the chapter's Blinn-Phong factor,
-/// 1.5 (0.2 + 0.2 (n · l) + 0.7 (n · h)³²), where h is halfway between viewer and light. Unlike in the chapter,
+/// With `highlight` it is multiplied by a Blinn-Phong factor,
+/// 1.5 (0.2 + 0.2 (n · l) + 0.7 (n · h)³²), where h is halfway between viewer and light. Unlike in the source,
 /// n is the shading normal on the viewer's side, so that the winding of the mesh does not matter.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ChapterIntegrator {
@@ -25,7 +26,7 @@ pub struct ChapterIntegrator {
     pub highlight: bool,
 }
 
-/// The chapter's factor to brighten the image.
+/// Brightens the image.
 const BRIGHTNESS: f32 = 3.0;
 
 impl Integrator for ChapterIntegrator {
@@ -93,7 +94,7 @@ const HIGHLIGHT: Key<bool> =
 /// `type = "chapter"`
 pub(super) const KIND: Kind<Read> = Kind {
     name: "chapter",
-    meaning: "The chapter's estimator: a brightness without shadows, falloff and intensity",
+    meaning: "The sum of pdf f 3 over the directions to all lights: a brightness without shadows, falloff and intensity",
     keys: &[&HIGHLIGHT],
     read,
 };

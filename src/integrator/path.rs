@@ -1,8 +1,9 @@
-//! [`PathIntegrator`]: path tracing. The whole algorithm is in this file, from top to bottom.
+//! [`PathIntegrator`]: path tracing. The loop and its stages are in this file, from top to bottom.
 //!
 //! Names are the letters of the equations: β path throughput divided by path density, f the BSDF, Li and Le
-//! incident and emitted radiance, p densities, w the weight of multiple importance sampling. `wave/` has the
-//! buffers of the stages, and the same stages for four flat Lambertian hits at a time.
+//! incident and emitted radiance, pdf densities, w the weight of multiple importance sampling. `wave/rules.rs` says
+//! which stages a scene needs, and has the weight of light that a path finds; `wave/vertices.rs` has the last stage
+//! again, for four flat Lambertian hits at a time.
 
 use std::sync::Arc;
 
@@ -105,7 +106,7 @@ impl Estimator for PathTracer<'_> {
             }
             // Sample values, dimension by dimension.
             self.draw_samples(sampler, &wave.ids, &mut wave.paths, depth);
-            // Shadow rays that carry β f Li |cos θ| w / p, and next rays with β f |cos θ| / p.
+            // Shadow rays that carry β f Li |cos θ| w / pdf, and next rays with β f |cos θ| / pdf.
             self.scatter(sampler, wave, depth);
             // L += the radiance that a shadow ray carries, if it is not occluded.
             wave.counters.shadow_rays += wave.shadow.trace(scene, &mut wave.radiance);
@@ -121,7 +122,7 @@ impl Estimator for PathTracer<'_> {
 }
 
 impl PathTracer<'_> {
-    /// Sorts paths by what their rays hit, and adds the emission of lights among the hits.
+    /// Partitions paths by what their rays hit, and adds the emission of lights among the hits.
     #[inline(never)]
     fn add_emitted(&self, wave: &mut Wave, depth: u32) {
         let Self { scene, rules } = self;
@@ -129,7 +130,7 @@ impl PathTracer<'_> {
         let Paths { first, states, by_hit, .. } = paths;
         let states = if depth == 0 { first } else { states };
         let (rays, hits) = if depth == 0 { (&*rays, &*hits) } else { (&paths.rays, &paths.hits) };
-        by_hit.sort(scene, hits);
+        by_hit.partition(scene, hits);
         if !rules.infinite.is_empty() {
             for i in by_hit.escaped.iter().map(|&i| i as usize) {
                 let (path, ray) = (&states[i], &rays[i]);
@@ -240,7 +241,7 @@ fn scatter_one(vertices: &mut Vertices, vertex: usize, (path, ray, hit): (&Path,
     let bsdf = scene.bsdf(hit, &mut si, arena);
     let (wo, beta, all) = (si.wo(), path.beta, BxdfFlags::all());
 
-    // Light samples, each weighted against hitting the light by BSDF sampling: β f Li |cos θ| w / p.
+    // Light samples, each weighted against hitting the light by BSDF sampling: β f Li |cos θ| w / pdf.
     for slot in 0..rules.lights.slots() {
         let (index, u) = vertices.choose_light(slot, vertex);
         let light = &*scene.lights()[index];
@@ -260,7 +261,7 @@ fn scatter_one(vertices: &mut Vertices, vertex: usize, (path, ray, hit): (&Path,
         }
     }
 
-    // The next direction: β f |cos θ| / p.
+    // The next direction: β f |cos θ| / pdf.
     let sample = rules.samples_direction(depth).then(|| {
         let uc = match bsdf.uses_uc() {
             true => sampler.get_1d(values.ids[vertex], dimension::event(depth)),
@@ -279,6 +280,7 @@ fn scatter_one(vertices: &mut Vertices, vertex: usize, (path, ray, hit): (&Path,
         sample: path.sample,
     };
     if next.beta.is_black()
+        || !rules.contributes(depth, sample.is_specular())
         || (rules.uses_roulette(depth) && !next.survives(values.roulette[vertex]))
     {
         return;

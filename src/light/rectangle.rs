@@ -6,11 +6,11 @@ use super::LightSamplesX4;
 use crate::geometry::BoundedPoint;
 use crate::geometry::float::gamma;
 use crate::geometry::four::{BoundedPointx4, Vec3x4};
-use crate::sampling::{LEAST_SOLID_ANGLE, Seen, SeenX4};
+use crate::sampling::{MIN_SOLID_ANGLE, Seen, SeenX4};
 use crate::spectrum::Spectrum;
 
 /// Largest displacement of a corner from an exact rectangle, relative to the shorter edge.
-const MOST_SKEW: f64 = 1e-4;
+const MAX_SKEW: f64 = 1e-4;
 
 /// A rectangle, prepared for sampling from any point.
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +45,7 @@ impl Rectangle {
         let size = DVec2::new(edge_x.length(), edge_y.length());
         let shift = opposite - (corner + edge_x + edge_y);
         let rounding = f64::from(gamma(8) * largest.max_element());
-        let slack = rounding.min(MOST_SKEW * size.min_element());
+        let slack = rounding.min(MAX_SKEW * size.min_element());
         let skew = edge_x.dot(edge_y).abs() / size.max_element();
         if shift.abs().max_element() > slack || skew > 2.0 * slack {
             return None;
@@ -113,7 +113,7 @@ impl Rectangle {
         let start = DVec2::new(offset.dot(self.axes[0]), offset.dot(self.axes[1]));
         let z = offset.dot(self.normal);
         let seen = Seen::new(start, start + self.size, z);
-        (seen.solid_angle > LEAST_SOLID_ANGLE).then_some((seen, z < 0.0))
+        (seen.solid_angle > MIN_SOLID_ANGLE).then_some((seen, z < 0.0))
     }
 
     #[inline(always)]

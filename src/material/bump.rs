@@ -11,7 +11,7 @@ const STEP: f32 = 0.0005;
 
 /// Least step, relative to the coordinate. Far from 0, the rounding of a texture's value has to stay small
 /// against the difference.
-const LEAST_STEP: f32 = 64.0 * f32::EPSILON;
+const MIN_STEP: f32 = 64.0 * f32::EPSILON;
 
 /// Tilts the shading frame as if the surface were displaced along its normal by `displacement`.
 ///
@@ -38,5 +38,5 @@ pub fn bump(displacement: &dyn Texture<f32>, si: &mut SurfaceInteraction) {
 
 /// A step from `x` for which `x + step` is exact in floating point.
 fn exact_step(x: f32) -> f32 {
-    (x + STEP.max(LEAST_STEP * x.abs())) - x
+    (x + STEP.max(MIN_STEP * x.abs())) - x
 }

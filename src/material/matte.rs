@@ -49,10 +49,7 @@ impl Material for MatteMaterial {
             bump(displacement, si);
         }
         let mut bsdf = Bsdf::isotropic(si);
-        let kd = self.kd.evaluate(si);
-        // Non-finite values reach the Bsdf, which counts them.
-        let r = if kd.is_finite() { kd.clamp(0.0, 1.0) } else { kd };
-        if !r.is_black() {
+        if let Some(r) = reflectance(self.kd.evaluate(si)) {
             let sigma = self.sigma.as_ref().map_or(0.0, |s| s.evaluate(si).clamp(0.0, 90.0));
             if sigma == 0.0 {
                 bsdf.add(LambertianReflection::new(r));
@@ -66,10 +63,17 @@ impl Material for MatteMaterial {
     fn constant_lambertian(&self) -> Option<LambertianReflection> {
         let kd = self.kd.constant()?;
         let smooth = self.sigma.as_ref().is_none_or(|sigma| sigma.constant() == Some(0.0));
-        let plain = smooth && self.bump.is_none() && kd.is_finite();
-        let r = kd.clamp(0.0, 1.0);
-        (plain && !r.is_black()).then(|| LambertianReflection::new(r))
+        let is_lambertian = smooth && self.bump.is_none() && kd.is_finite();
+        reflectance(kd).filter(|_| is_lambertian).map(LambertianReflection::new)
     }
+}
+
+/// `kd` clamped to `[0, 1]` per band; `None` if nothing is reflected. Values that are not finite are kept: the Bsdf
+/// counts them.
+#[inline]
+fn reflectance(kd: Spectrum) -> Option<Spectrum> {
+    let r = if kd.is_finite() { kd.clamp(0.0, 1.0) } else { kd };
+    (!r.is_black()).then_some(r)
 }
 
 /// 0.5 by default, as in PBRT.

@@ -165,6 +165,10 @@ impl<T: Param, const N: usize> Param for [T; N] {
     fn example(limits: &Limits) -> Self {
         std::array::from_fn(|_| T::example(limits))
     }
+
+    fn placed(self, folder: &Path) -> Self {
+        self.map(|value| value.placed(folder))
+    }
 }
 
 /// `None` if the key is left out.

@@ -92,9 +92,9 @@ impl<'a> Table<'a> {
     ) -> Result<Self, Fault> {
         self.keys = [selector].into_iter().chain(keys).collect();
         self.read = RefCell::new(vec![selector]);
-        // The keys of a table depend on its type, so name it in the message.
-        if let Some(kind) = self.node.get("type") {
-            self.title = format!("{} of type {}", self.title, kind.value);
+        // The keys of a table depend on its kind, so name it in the message.
+        if let Some(kind) = self.node.get(selector) {
+            self.title = format!("{} of {selector} {}", self.title, kind.value);
         }
         self.refuse_unknown()?;
         self.title = format!("[{}]", self.name);

@@ -25,7 +25,7 @@ pub use settings::{RenderSettings, SamplerSettings, SettingsError};
 /// Renders a scene.
 ///
 /// The picture is the same, bit by bit, for any number of threads and any size of tiles. With
-/// [`RenderOptions::time`] that holds for the same number of samples.
+/// [`RenderOptions::time`] that holds for the same passes; others with as many samples differ by the rounding of sums.
 ///
 /// # Errors
 /// If there is not enough memory for the film, or if the settings ask for no samples. A cancelled render is no error:
@@ -63,7 +63,7 @@ pub struct Sampling<'a> {
     /// Samples in each pixel, at least 1; [`RenderOptions::spp`] takes its place.
     pub spp: u32,
     /// Into how many independent sets they are divided, at most `spp`, of `spp / sets` samples each. The variance of a
-    /// correlated sampler is estimated from the means of its sets, of which that takes at least two.
+    /// correlated sampler is estimated from the means of its sets, which takes at least two sets.
     pub sets: u32,
 }
 
@@ -103,8 +103,8 @@ pub fn render_with(
     let (resolution, window) = (view.film().resolution, view.film().window());
     let area = window.area() as u64;
     let shared = Mutex::new((Film::new(resolution, window, contents)?, Counters::default()));
-    let (mut samples_per_pixel, mut empty_pixels, mut threads) = (0, area, 0);
-    let so_far = |samples_per_pixel, empty_pixels, threads, complete| {
+    let (mut samples_per_pixel, mut threads) = (0, 0);
+    let so_far = |samples_per_pixel, threads, complete| {
         let shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
         let (film, counters) = &*shared;
         Rendered {
@@ -112,7 +112,7 @@ pub fn render_with(
             counters: *counters,
             samples_per_pixel,
             complete,
-            empty_pixels,
+            empty_pixels: film.empty_pixels(),
             non_finite: film.non_finite(),
             threads,
             seconds: start.seconds(),
@@ -125,16 +125,15 @@ pub fn render_with(
         let pass = Pass { scene, view, estimator, sampler, options, indices, sets, contents };
         let end = pass.render(&shared)?;
         threads = threads.max(end.threads);
-        empty_pixels = empty_pixels.min(area - end.pixels);
         if end.pixels < area {
-            return Ok(so_far(samples_per_pixel, empty_pixels, threads, false));
+            return Ok(so_far(samples_per_pixel, threads, false));
         }
         samples_per_pixel = samples;
         if let Some(on_pass) = options.on_pass {
-            on_pass(&so_far(samples_per_pixel, empty_pixels, threads, false));
+            on_pass(&so_far(samples_per_pixel, threads, false));
         }
     }
-    Ok(so_far(samples_per_pixel, empty_pixels, threads, true))
+    Ok(so_far(samples_per_pixel, threads, true))
 }
 
 /// The sampler that the settings ask for.

@@ -12,22 +12,23 @@ use crate::integrator::Counters;
 /// How to render. Apart from `spp`, `time`, `layers` and `cancel` none of it changes what comes out.
 #[derive(Clone, Copy)]
 pub struct RenderOptions<'a> {
-    /// How many threads; as many as the machine has if there is no number.
+    /// Number of threads; `None` for as many as the machine has.
     pub threads: Option<NonZeroUsize>,
     /// Columns and rows of a tile, at least 1.
     pub tile_size: u32,
-    /// Samples in each pixel, at least 1, in place of the settings'. With `time` it is the most, and without a number
-    /// there is no limit.
+    /// Samples per pixel, at least 1, in place of the settings'. With `time` it is the maximum, and `None` means no
+    /// limit.
     pub spp: Option<u32>,
-    /// Renders in passes, each with as many samples as all before it, and in the time that is left smaller ones, until
-    /// none is likely to end in time. How many samples that makes depends on the machine. `Duration::MAX` and a number
-    /// of samples give passes without a limit in time. On `wasm32-unknown-unknown`, which has no clock, there is none.
+    /// Limits the time. The image is rendered in passes: each takes as many samples as all before it, as long as that is
+    /// likely to fit into the time that is left; then come smaller ones, until none fits. The number of samples depends
+    /// on the machine. `Duration::MAX` with a number of samples gives passes without a limit in time. Ignored on
+    /// `wasm32-unknown-unknown`, which has no clock.
     pub time: Option<Duration>,
     /// Whether to keep normal, depth and albedo of the first hits, the number of samples, and the variance of each
     /// pixel.
     pub layers: bool,
-    /// Called after every tile, by the thread that rendered it, while the other threads cannot hand in
-    /// theirs: it should be quick.
+    /// Called after every tile by the thread that rendered it. Other threads wait to deliver theirs until it
+    /// returns, so it should be quick.
     pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
     /// Called after every pass, by the thread that called [`render`](super::render), with the picture so far. Without `time` there is
     /// one pass. The next one begins when it returns.
@@ -56,8 +57,8 @@ impl Default for RenderOptions<'_> {
 pub struct Progress {
     /// Pixels that are done in this pass.
     pub pixels: u64,
-    /// Pixels that there are.
-    pub of: u64,
+    /// Number of all pixels.
+    pub total_pixels: u64,
     /// Samples in each pixel that earlier passes took; with [`RenderOptions::time`] there are several.
     pub samples: u32,
     /// Rays traced so far.
@@ -70,7 +71,7 @@ pub struct Progress {
 pub struct Rendered {
     /// The developed film. Each pixel is the mean of its own samples.
     pub picture: Picture,
-    /// What was done, with the samples that a cancelled render took but could not finish a tile with.
+    /// What was done, including samples of tiles that a cancelled render did not finish.
     pub counters: Counters,
     /// Samples of whole passes, the same number in each pixel. When a render is cancelled, pixels in tiles that its
     /// last pass finished have more; [`Layers::samples`](crate::image::Layers::samples) tells how many.
@@ -78,9 +79,10 @@ pub struct Rendered {
     /// Whether all samples were taken that were asked for, or that `time` allowed. It is false if the render was
     /// cancelled, and for [`RenderOptions::on_pass`], since more may come.
     pub complete: bool,
-    /// Pixels without any sample, which are black. Only a render that is cancelled in its first pass leaves some.
+    /// Pixels without any sample, which are black: those that a cancelled render did not reach, and those whose samples
+    /// were all left out.
     pub empty_pixels: u64,
-    /// Samples that were left out because they were not finite.
+    /// Samples, and first hits of [`RenderOptions::layers`], that were left out because they were not finite.
     pub non_finite: u64,
     /// How many threads took part.
     pub threads: usize,

@@ -46,8 +46,8 @@ pub struct SamplerSettings {
     pub spp: u32,
     /// Each seed gives other, independent samples.
     pub seed: u64,
-    /// Into how many independent sets a correlated sampler divides the samples of a pixel. The film tells its error
-    /// from how far their means differ, which one set cannot: see [`SamplerSettings::sets`].
+    /// Into how many independent sets a correlated sampler divides the samples of a pixel. The error is
+    /// estimated from how far their means differ, which takes at least two: see [`SamplerSettings::sets`].
     pub replicates: u32,
 }
 
@@ -60,8 +60,11 @@ impl SamplerSettings {
         if self.spp == 0 { Err(SettingsError::NoSamples) } else { Ok(()) }
     }
 
-    /// The most sets that are made: more tell no more of the error.
-    pub const MOST_SETS: u32 = 1024;
+    /// 64 Sobol samples in two sets.
+    pub const DEFAULT: Self = Self { kind: SamplerKind::SOBOL, spp: 64, seed: 0, replicates: 2 };
+
+    /// Maximum number of sets: more would not improve the estimate of the error.
+    pub const MAX_SETS: u32 = 1024;
 
     /// How many independent sets the samples of a pixel are divided into, all of the same size: the largest
     /// divisor of `spp` that is not above `replicates`; one set if the samples are independent.
@@ -69,14 +72,9 @@ impl SamplerSettings {
         if !self.kind.is_correlated() {
             return 1;
         }
-        let most = self.replicates.min(self.spp).clamp(1, Self::MOST_SETS);
+        let most = self.replicates.min(self.spp).clamp(1, Self::MAX_SETS);
         (1..=most).rev().find(|sets| self.spp.is_multiple_of(*sets)).unwrap_or(1)
     }
-}
-
-impl SamplerSettings {
-    /// 64 Sobol samples in two sets.
-    pub const DEFAULT: Self = Self { kind: SamplerKind::SOBOL, spp: 64, seed: 0, replicates: 2 };
 }
 
 impl Default for SamplerSettings {

@@ -64,8 +64,8 @@ impl Pass<'_> {
             let done = pixels.fetch_add(tile.area() as u64, Ordering::Relaxed) + tile.area() as u64;
             if let Some(progress) = self.options.progress {
                 let samples = self.indices.start * self.sets;
-                let of = self.view.film().window().area() as u64;
-                progress(Progress { pixels: done, of, samples, rays: counters.rays() });
+                let total_pixels = self.view.film().window().area() as u64;
+                progress(Progress { pixels: done, total_pixels, samples, rays: counters.rays() });
             }
         }
         Ok(())

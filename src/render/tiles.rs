@@ -1,4 +1,4 @@
-//! [`Tiles`]: the image cut into squares, which threads take one by one.
+//! [`Tiles`]: the image cut into tiles, which threads take one by one.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -29,13 +29,13 @@ impl Tiles {
 
     /// The next tile, or `None` when all have been handed out.
     pub fn next(&self) -> Option<Window> {
-        let number = self.next.fetch_add(1, Ordering::Relaxed);
-        if number >= self.count() {
+        let index = self.next.fetch_add(1, Ordering::Relaxed);
+        if index >= self.count() {
             return None;
         }
         let columns = self.grid.x as usize;
-        let place = UVec2::new((number % columns) as u32, (number / columns) as u32);
-        let min = self.window.min + place * self.size;
+        let cell = UVec2::new((index % columns) as u32, (index / columns) as u32);
+        let min = self.window.min + cell * self.size;
         // Saturating: a tile may be asked to be larger than any image.
         let max = UVec2::new(min.x.saturating_add(self.size), min.y.saturating_add(self.size));
         Some(Window { min, max: max.min(self.window.max) })

@@ -24,8 +24,8 @@ pub enum SceneError {
         /// The name of the missing material.
         material: String,
     },
-    /// More triangles than [`Accel::MOST_TRIANGLES`].
-    #[error("the scene has {0} triangles, more than {max}", max = Accel::MOST_TRIANGLES)]
+    /// More triangles than [`Accel::MAX_TRIANGLES`].
+    #[error("the scene has {0} triangles, more than {max}", max = Accel::MAX_TRIANGLES)]
     TooManyTriangles(usize),
     /// A mesh failed [`TriangleMesh::check`].
     #[error("shape {0:?}: {1}")]
@@ -169,7 +169,7 @@ impl SceneBuilder {
             meshes.push(mesh);
         }
         let triangles = meshes.iter().map(|mesh| mesh.indices.len()).sum();
-        if triangles > Accel::MOST_TRIANGLES {
+        if triangles > Accel::MAX_TRIANGLES {
             return Err(SceneError::TooManyTriangles(triangles));
         }
         let is_flat_lambertian = shapes.iter().all(|shape| shape.flat_lambertian.is_some());

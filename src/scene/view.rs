@@ -58,7 +58,7 @@ fn size(resolution: UVec2) -> String {
 /// let front = PerspectiveSettings { eye: Vec3::NEG_Z, look_at: Vec3::ZERO, ..Default::default() };
 /// let side = PerspectiveSettings { eye: Vec3::X, ..front };
 /// for camera in [front, side] {
-// All views share the scene's acceleration structure.
+///     // All views share the scene's acceleration structure.
 ///     let view = View::perspective(&camera, film)?;
 ///     let rendered =
 ///         render(&scene, &view, &RenderSettings::default(), &RenderOptions::default())?;

@@ -60,6 +60,8 @@ pub const REPLICATES: Key<u32> = Key::new(
     "independent sets of samples, from which the error is estimated; for all samplers but \"independent\". Rounded \
      down to a divisor of spp",
 )
+.at_least(1.0)
+.at_most(SamplerSettings::MAX_SETS as f64)
 .default(SamplerSettings::DEFAULT.replicates);
 
 pub static SAMPLER: Section<Make> = Section {

@@ -3,13 +3,13 @@
 use glam::{Vec2, Vec3};
 
 use super::mesh::TriangleMesh;
-use crate::geometry::float::LARGEST_COORDINATE;
+use crate::geometry::float::MAX_COORDINATE;
 
 impl TriangleMesh {
     /// Validates the mesh:
     ///
     /// - `normals` and `uvs` are empty or as long as `positions`;
-    /// - all numbers are finite, and positions are within ± [`LARGEST_COORDINATE`];
+    /// - all numbers are finite, and positions are within ± [`MAX_COORDINATE`];
     /// - all indices are in range;
     /// - there are fewer than 2³² vertices and triangles.
     ///
@@ -29,7 +29,7 @@ impl TriangleMesh {
             let vertex = of.iter().position(|&x| !is_finite(x))?;
             Some((vertex, of[vertex]))
         }
-        let within = |p: Vec3| p.abs().max_element() <= LARGEST_COORDINATE && !p.is_nan();
+        let within = |p: Vec3| p.abs().max_element() <= MAX_COORDINATE && !p.is_nan();
         if let Some((vertex, found)) = first_bad(&self.positions, within) {
             return Err(MeshError::Position { vertex, found });
         }
@@ -71,7 +71,7 @@ pub enum MeshError {
         /// The number of positions.
         vertices: usize,
     },
-    /// A position is NaN, infinite or beyond [`LARGEST_COORDINATE`].
+    /// A position is NaN, infinite or beyond [`MAX_COORDINATE`].
     #[error("vertex {vertex} is at {found}, expected finite coordinates up to 1e12")]
     Position {
         /// Index of the vertex.

@@ -43,14 +43,14 @@ impl Treelet {
     /// `child_cost`.
     pub fn build(
         scratch: &mut Scratch,
-        source: &Primitives,
+        all: &Primitives,
         ids: &[u32],
         child_cost: f32,
         max_in_leaf: usize,
     ) -> Self {
         let Scratch { triangles, primitives, trees, collapse } = scratch;
         triangles.clear();
-        triangles.extend(source.triangles(ids.iter().copied()));
+        triangles.extend(all.triangles(ids.iter().copied()));
         group_duplicates(triangles, primitives);
         let tree = trees.build(primitives);
         let choices = collapse.choose(tree, max_in_leaf, |primitive| {

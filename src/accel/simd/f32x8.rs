@@ -4,7 +4,7 @@ use std::arch::x86_64::*;
 
 use super::lanes::{LaneIndices, Mask, Vector};
 
-/// F32x8 f32 in one register. Exists only while code runs under `Avx2::call`: each `unsafe` below executes an
+/// Eight f32 in one register. Exists only while code runs under `Avx2::call`: each `unsafe` below executes an
 /// instruction that such a processor has.
 #[derive(Clone, Copy)]
 pub struct F32x8(pub(super) __m256);

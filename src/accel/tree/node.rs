@@ -31,8 +31,9 @@ const LEAF: u32 = 1 << 31;
 const VERTICES_SHIFT: u32 = 27;
 /// Leaf indices are below this.
 const MAX_LEAVES: u32 = 1 << VERTICES_SHIFT;
-/// Most triangles of a tree. Leaves are addressed by the cache line, and one with a single triangle takes two.
-pub const MAX_TRIANGLES: usize = MAX_LEAVES as usize / 2;
+/// Maximum number of triangles of a tree. Leaves are addressed by the cache line, and one with a single triangle takes
+/// two; the sentinel of empty slots is one too.
+pub const MAX_TRIANGLES: usize = MAX_LEAVES as usize / 2 - 1;
 
 impl Child {
     /// Sentinel for empty slots: the first leaf. Only NaN rays reach its NaN triangle.

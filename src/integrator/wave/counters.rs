@@ -10,7 +10,8 @@ pub struct Counters {
     pub shadow_rays: u64,
     /// Rays scattered at surfaces.
     pub scattered_rays: u64,
-    /// Invalid lobe results: see [`Bsdf::rejected`](crate::bxdf::Bsdf::rejected).
+    /// Invalid frames, lobes and results of lobes: see [`Bsdf::rejected`](crate::bxdf::Bsdf::rejected). The layers of
+    /// [`RenderOptions::layers`](crate::render::RenderOptions::layers) ask for reflectances too, and so count more.
     pub rejected: u64,
     /// Camera rays that could not be traced: see [`Camera`](crate::camera::Camera). Their samples are left out of the
     /// picture and are also counted as non-finite.

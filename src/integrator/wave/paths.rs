@@ -55,7 +55,7 @@ impl Paths {
     pub fn with_capacity(paths: usize) -> Self {
         Self {
             first: Vec::with_capacity(paths),
-            states: Vec::with_capacity(paths + 1),
+            states: Vec::with_capacity(paths),
             rays: Vec::with_capacity(paths),
             hits: Vec::with_capacity(paths),
             by_hit: PathsByHit {
@@ -101,7 +101,7 @@ impl Paths {
     }
 }
 
-/// Indices of paths, sorted by what their rays hit.
+/// Indices of paths, partitioned by what their rays hit.
 #[derive(Default)]
 pub struct PathsByHit {
     /// Paths whose rays hit a surface, flat Lambertian surfaces first: see [`Scene::flat_lambertian`].
@@ -110,14 +110,14 @@ pub struct PathsByHit {
     pub flat: usize,
     /// Paths whose rays hit nothing.
     pub escaped: Vec<u32>,
-    /// Buffer for paths on all other surfaces during sorting.
+    /// Buffer for paths on all other surfaces.
     others: Vec<u32>,
 }
 
 impl PathsByHit {
-    /// Sorts all paths by their hits.
+    /// Partitions all paths by their hits.
     #[inline(never)]
-    pub fn sort(&mut self, scene: &Scene, hits: &[Hit]) {
+    pub fn partition(&mut self, scene: &Scene, hits: &[Hit]) {
         let Self { active, others, escaped, .. } = self;
         active.resize(hits.len(), 0);
         escaped.resize(hits.len(), 0);

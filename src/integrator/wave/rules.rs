@@ -1,7 +1,8 @@
 //! [`PathRules`]: which stages paths need at each depth, and how they sample lights.
 //!
 //! Stages that a scene does not need are skipped: without emissive surfaces, hits are not tested for emission;
-//! with a single light, none is selected; and if no light can be hit, no direction is sampled.
+//! with a single light, none is selected; and at the last vertex no direction is sampled unless light found there
+//! counts.
 
 use glam::Vec3;
 
@@ -65,10 +66,18 @@ impl PathRules {
         self.lights.slots() > 0 || self.has_area_lights || !self.infinite.is_empty()
     }
 
-    /// Whether a ray that leaves a vertex of this depth can contribute.
+    /// Whether a ray that leaves a vertex of this depth can contribute. With strategy `Light`, the last ray of a path
+    /// contributes after a delta event only.
+    #[inline]
+    pub fn contributes(&self, depth: u32, is_delta: bool) -> bool {
+        let can_hit_lights = self.has_area_lights || !self.infinite.is_empty();
+        depth + 1 < self.max_depth || can_hit_lights && (self.counts_bsdf_samples || is_delta)
+    }
+
+    /// Whether any ray that leaves a vertex of this depth can contribute.
     #[inline]
     pub fn samples_direction(&self, depth: u32) -> bool {
-        depth + 1 < self.max_depth || self.has_area_lights || !self.infinite.is_empty()
+        self.contributes(depth, true)
     }
 
     /// Whether Russian roulette is applied at this depth. Not for the last ray, which only looks for lights: ending

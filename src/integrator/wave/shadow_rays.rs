@@ -18,10 +18,9 @@ pub struct ShadowRays {
 impl ShadowRays {
     pub(super) fn with_capacity(rays: usize) -> Self {
         Self {
-            // `push_x4` needs room for one more element.
-            rays: Vec::with_capacity(rays + 1),
-            samples: Vec::with_capacity(rays + 1),
-            carried: Vec::with_capacity(rays + 1),
+            rays: Vec::with_capacity(rays),
+            samples: Vec::with_capacity(rays),
+            carried: Vec::with_capacity(rays),
             occluded: Vec::with_capacity(rays),
         }
     }

@@ -61,7 +61,7 @@ impl Vertices<'_> {
         for slot in 0..self.rules.lights.slots() {
             self.sample_lights(slot, vertex, block);
         }
-        if self.rules.samples_direction(self.depth) {
+        if self.rules.contributes(self.depth, false) {
             for (i, hits) in block.iter().enumerate().filter(|(_, hits)| hits.sound) {
                 self.sample_directions(vertex + 4 * i, hits);
             }

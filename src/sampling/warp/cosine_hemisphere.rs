@@ -3,7 +3,7 @@
 //! Malley's method (PBRT 3rd edition, section 13.6.3): points uniform on the unit disk are
 //! projected up to the hemisphere. The disk's area element r dr dφ is sin θ cos θ dθ dφ, so the
 //! density over solid angle is C cos θ. Its integral over the hemisphere, C π, must be 1. The polar
-//! form is cos θ = √(1 - u), equation 5.8 of the chapter.
+//! form is cos θ = √(1 - u).
 
 use std::f32::consts::FRAC_1_PI;
 

@@ -33,4 +33,4 @@ pub mod uniform_triangle;
 
 pub(crate) use seen_x4::SeenX4;
 pub use spherical_rectangle::SphericalRectangle;
-pub(crate) use spherical_rectangle::{LEAST_SOLID_ANGLE, Seen};
+pub(crate) use spherical_rectangle::{MIN_SOLID_ANGLE, Seen};

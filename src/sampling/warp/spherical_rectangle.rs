@@ -17,7 +17,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 use crate::geometry::float::ONE_MINUS_EPSILON;
 
 /// Solid angle in sr below which lights sample rectangles by area.
-pub(crate) const LEAST_SOLID_ANGLE: f64 = 1e-6;
+pub(crate) const MIN_SOLID_ANGLE: f64 = 1e-6;
 
 /// A rectangle as it is seen from a reference point. Its warp is uniform over solid angle.
 ///

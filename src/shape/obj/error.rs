@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 use std::io;
 
-use crate::geometry::float::LARGEST_COORDINATE;
+use crate::geometry::float::MAX_COORDINATE;
 
 /// Why an OBJ file was refused. Each message is one sentence. It begins with the name of the file
 /// and, where it applies, the line: `wing.obj:12: face has 2 of the 3 corners it needs at least`.
@@ -190,7 +190,7 @@ impl ObjAttribute {
 
     /// Greatest magnitude of its numbers.
     pub(super) const fn limit(self) -> f32 {
-        [LARGEST_COORDINATE, f32::MAX, f32::MAX][self as usize]
+        [MAX_COORDINATE, f32::MAX, f32::MAX][self as usize]
     }
 
     const fn range(self) -> &'static str {

@@ -12,7 +12,8 @@ const BEFORE: &str = "\
 src/bin/lobe/help/page.rs, and generate it again. A test compares both. -->
 
 A scene is a [TOML](https://toml.io) file of tables. All tables are optional, and so are all keys that are not marked as
-required. Unknown keys are errors, and so are keys that have no effect beside the others of their table.
+required. Unknown keys are errors, and so are keys that mean nothing beside the others of their table, such as
+`two_sided` without `emission`.
 
 ```toml
 [camera]
