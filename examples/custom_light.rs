@@ -33,7 +33,7 @@ impl Light for Overcast {
         let local = cosine_hemisphere::sample(u);
         let pdf = cosine_hemisphere::pdf(local.z);
         let wi = Vec3::new(local.x, local.z, local.y);
-        let sample = LightSample { li: self.zenith * local.z, wi, pdf, from: None };
+        let sample = LightSample::distant(self.zenith * local.z, wi, pdf);
         (pdf > 0.0).then_some(sample)
     }
 

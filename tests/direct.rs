@@ -188,7 +188,8 @@ fn light_sampling_alone_traces_no_scattered_rays() {
     let scattered = |strategy| {
         let settings = independent(4, DirectIntegrator { strategy });
         let view = chapter_view(UVec2::splat(16));
-        let counters = render(&scene, &view, &settings, &RenderOptions::default()).unwrap().counters;
+        let counters =
+            render(&scene, &view, &settings, &RenderOptions::default()).unwrap().counters;
         assert!(counters.shadow_rays > 0);
         counters.scattered_rays
     };

@@ -375,7 +375,7 @@ impl Light for Panel {
         let wi = to_light.normalize();
         // Solid angle of an area: dω = cos θ dA / d².
         let pdf = to_light.length_squared() / (4.0 * wi.y);
-        Some(LightSample { li: Spectrum::WHITE, wi, pdf, from: Some(from) })
+        Some(LightSample::from_point(Spectrum::WHITE, wi, pdf, from))
     }
 
     fn power(&self, _scene: &BoundingSphere) -> Option<Spectrum> {

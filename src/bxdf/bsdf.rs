@@ -96,7 +96,11 @@ impl<'a> Bsdf<'a> {
         Self { frame, ng, lobes: ArrayVec::new_const(), rejected: Cell::new(0) }
     }
 
-    /// Adds a lobe. Returns false if all [`MAX_LOBES`] are in use: the lobe is then left out and counted as
+    /// Adds a lobe: one of this crate's by value, any other by reference. A material lends a lobe that it holds
+    /// (`bsdf.add(&self.lobe as &dyn BxDF)`), or puts one that it makes for this hit into the arena that it is given
+    /// (`bsdf.add(arena.lobe(Mine { r }))`).
+    ///
+    /// Returns false if all [`MAX_LOBES`] are in use: the lobe is then left out and counted as
     /// rejected.
     #[inline]
     pub fn add(&mut self, lobe: impl Into<Lobe<'a>>) -> bool {
@@ -241,7 +245,13 @@ impl<'a> Bsdf<'a> {
         let reflects = (wo_z > 0.0) == (wi_z > 0.0);
         let side = if reflects { BxdfFlags::REFLECTION } else { BxdfFlags::TRANSMISSION };
         let spread = match kind - SIDES {
-            only if only.bits().is_power_of_two() && !sample.is_specular() => only,
+            only if only.bits().is_power_of_two() && !sample.is_specular() => {
+                // A specular lobe without sampling of its own cannot find its direction.
+                if only == BxdfFlags::SPECULAR && sample.f.is_black() {
+                    self.reject();
+                }
+                only
+            }
             _ => sample.flags - SIDES,
         };
         let claimed = sample.flags;

@@ -6,9 +6,8 @@ use glam::{Vec2, Vec3};
 
 use super::rectangle::Rectangle;
 use super::{BoundingSphere, Light, LightHit, LightSample, LightSamplesX4, one_by_one};
-use crate::geometry::float::gamma;
+use crate::geometry::BoundedPoint;
 use crate::geometry::four::Vec3x4;
-use crate::geometry::{BoundedPoint, unit};
 use crate::sampling::{Discrete, uniform_triangle};
 use crate::shape::{TriangleMesh, triangle_normal};
 use crate::spectrum::Spectrum;
@@ -109,12 +108,7 @@ impl Light for AreaLight {
                 (point, n, self.pdf_by_area(distance, cos_theta))
             }
         };
-        let to_light = point.p - p;
-        let wi = unit(to_light).filter(|_| pdf > 0.0 && pdf < f32::INFINITY)?;
-        // A shadow ray from `p` misses the point by the rounding of its direction and distance.
-        let error = point.error + gamma(8) * to_light.abs();
-        let from = BoundedPoint { p: point.p, error }.ray_origin(n, -to_light);
-        Some(LightSample { li: self.radiance, wi, pdf, from: Some(from) })
+        LightSample::from_surface(p, point, n, self.radiance, pdf)
     }
 
     #[inline]

@@ -35,7 +35,7 @@ impl Light for DistantLight {
     /// Independent of the point.
     #[inline]
     fn sample_li(&self, _p: Vec3, _u: Vec2) -> Option<LightSample> {
-        Some(LightSample { li: self.irradiance, wi: self.towards, pdf: 1.0, from: None })
+        Some(LightSample::distant(self.irradiance, self.towards, 1.0))
     }
 
     /// E π r²: the light that passes through the cross section of the scene's bounding sphere.

@@ -33,13 +33,8 @@ impl Light for PointLight {
     fn sample_li(&self, p: Vec3, _u: Vec2) -> Option<LightSample> {
         let to_light = self.position - p;
         let distance2 = to_light.length_squared();
-        let sample = LightSample {
-            li: self.intensity / distance2,
-            wi: to_light / distance2.sqrt(),
-            pdf: 1.0,
-            from: Some(self.position),
-        };
-        (distance2 > 0.0).then_some(sample)
+        let (li, wi) = (self.intensity / distance2, to_light / distance2.sqrt());
+        (distance2 > 0.0).then_some(LightSample::from_point(li, wi, 1.0, self.position))
     }
 
     /// 4π I.

@@ -45,7 +45,7 @@ impl Light for SkyLight {
     #[inline]
     fn sample_li(&self, _p: Vec3, u: Vec2) -> Option<LightSample> {
         let wi = uniform_sphere::sample(u).normalize();
-        Some(LightSample { li: self.radiance, wi, pdf: uniform_sphere::pdf(), from: None })
+        Some(LightSample::distant(self.radiance, wi, uniform_sphere::pdf()))
     }
 
     #[inline]

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use glam::{BVec4A, Vec2, Vec3, Vec4};
 
+use crate::geometry::float::gamma;
 use crate::geometry::four::{Vec3x4, four};
+use crate::geometry::{BoundedPoint, unit};
 use crate::interaction::SurfaceInteraction;
 use crate::params::{Fault, Table};
 use crate::spectrum::Spectrum;
@@ -12,8 +14,10 @@ use crate::spectrum::Spectrum;
 /// Function that reads a kind of light from a scene file.
 pub type Read = fn(&Table) -> Result<Arc<dyn Light>, Fault>;
 
-/// Light that may arrive at a point from one direction: it does unless something blocks it.
+/// Light that may arrive at a point from one direction: it does unless something blocks it. Made by
+/// [`distant`](Self::distant), [`from_point`](Self::from_point) or [`from_surface`](Self::from_surface).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct LightSample {
     /// Incident radiance in W / (m² sr); for a delta light, the irradiance on a surface perpendicular to
     /// `wi`, in W / m².
@@ -22,9 +26,55 @@ pub struct LightSample {
     pub wi: Vec3,
     /// Density over solid angle with which `wi` was sampled, above 0; 1 for a delta light.
     pub pdf: f32,
-    /// End point of the shadow ray. A point on a surface is offset from it by the bound on its rounding error,
-    /// so that the surface does not block the ray. `None` for light from an infinite distance.
+    /// End point of the shadow ray, outside the light's own surface. `None` for light from an infinite distance.
     pub from: Option<Vec3>,
+}
+
+impl LightSample {
+    /// Light from an infinite distance.
+    #[inline]
+    pub fn distant(li: Spectrum, wi: Vec3, pdf: f32) -> Self {
+        Self { li, wi, pdf, from: None }
+    }
+
+    /// Light from a point that no surface of the scene contains.
+    #[inline]
+    pub fn from_point(li: Spectrum, wi: Vec3, pdf: f32, from: Vec3) -> Self {
+        Self { li, wi, pdf, from: Some(from) }
+    }
+
+    /// Light that reaches `p` from a point on a surface of the scene with normal `n`. The end point of the shadow ray is
+    /// offset from the surface by the bound on its rounding error, so that the surface does not block the ray.
+    /// `None` if `pdf` is 0 or infinite, or if both points are one.
+    ///
+    /// ```
+    /// use lobe::Spectrum;
+    /// use lobe::geometry::BoundedPoint;
+    /// use lobe::glam::Vec3;
+    /// use lobe::light::LightSample;
+    ///
+    /// let corners = [Vec3::new(-1.0, 2.0, -1.0), Vec3::new(1.0, 2.0, -1.0), Vec3::new(0.0, 2.0, 1.0)];
+    /// let point = BoundedPoint::on_triangle(corners, [0.3, 0.3, 0.4]);
+    /// let sample =
+    ///     LightSample::from_surface(Vec3::ZERO, point, Vec3::NEG_Y, Spectrum::WHITE, 0.5).unwrap();
+    /// let below = sample.from.unwrap().y;
+    /// assert!(below < 2.0 && below > 1.9999);
+    /// ```
+    #[inline]
+    pub fn from_surface(
+        p: Vec3,
+        point: BoundedPoint,
+        n: Vec3,
+        li: Spectrum,
+        pdf: f32,
+    ) -> Option<Self> {
+        let to_light = point.p - p;
+        let wi = unit(to_light).filter(|_| pdf > 0.0 && pdf < f32::INFINITY)?;
+        // A shadow ray from `p` misses the point by the rounding of its direction and distance.
+        let error = point.error + gamma(8) * to_light.abs();
+        let from = BoundedPoint { p: point.p, error }.ray_origin(n, -to_light);
+        Some(Self { li, wi, pdf, from: Some(from) })
+    }
 }
 
 /// Four of [`LightSample`]. Where `exists` is false the other fields are meaningless.
@@ -154,7 +204,7 @@ pub struct BoundingSphere {
 ///     fn sample_li(&self, p: Vec3, _u: Vec2) -> Option<LightSample> {
 ///         let (wi, distance) = (self.position - p).normalize_and_length();
 ///         let li = Spectrum::splat(self.intensity * wi.y / (distance * distance));
-///         (wi.y > 0.0).then_some(LightSample { li, wi, pdf: 1.0, from: Some(self.position) })
+///         (wi.y > 0.0).then_some(LightSample::from_point(li, wi, 1.0, self.position))
 ///     }
 /// }
 ///
@@ -183,10 +233,11 @@ pub trait Light: Send + Sync {
     /// Samples light towards the point `p` in world space, with `u` in `[0, 1)²`. `None` if there is none.
     fn sample_li(&self, p: Vec3, u: Vec2) -> Option<LightSample>;
 
-    /// Density over solid angle with which `sample_li` at `hit.origin` returns `hit.wi`; 0 if it cannot. A delta
-    /// light is never hit and needs none.
+    /// Density over solid angle with which `sample_li` at `hit.origin` returns `hit.wi`; 0 if it cannot. By default
+    /// NaN, since a delta light is never hit: a light that emits towards rays ([`le`](Light::le)) without this method
+    /// gives samples that are not finite, which are left out and counted, and does not count twice in silence.
     fn pdf_li(&self, _hit: &LightHit) -> f32 {
-        0.0
+        f32::NAN
     }
 
     /// Radiance emitted against the ray, in W / (m² sr). A delta light is invisible.

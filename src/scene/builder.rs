@@ -27,6 +27,14 @@ pub enum SceneError {
     /// More triangles than [`Accel::MAX_TRIANGLES`].
     #[error("the scene has {0} triangles, more than {max}", max = Accel::MAX_TRIANGLES)]
     TooManyTriangles(usize),
+    /// An [`Emission`] is negative or not finite.
+    #[error("shape {shape:?} emits {radiance:?}: each band has to be finite and at least 0")]
+    Emission {
+        /// The shape.
+        shape: String,
+        /// What it emits.
+        radiance: [f32; 3],
+    },
     /// A mesh failed [`TriangleMesh::check`].
     #[error("shape {0:?}: {1}")]
     Mesh(String, MeshError),
@@ -107,8 +115,9 @@ impl SceneBuilder {
         self
     }
 
-    /// Adds a mesh in world space as the surface of a light of any kind. The light has to sample the same mesh, or
-    /// to return `None` from [`Light::sample_li`]. Rays that hit the mesh call [`Light::le`] with the hit, so that
+    /// Adds a mesh in world space as the surface of a light of any kind. The light has to sample the same mesh (see
+    /// [`LightSample::from_surface`](crate::light::LightSample::from_surface)), or to return `None` from
+    /// [`Light::sample_li`] and 0 from [`Light::pdf_li`]. Rays that hit the mesh call [`Light::le`] and [`Light::pdf_li`] with the hit, so that
     /// emission may vary over the surface. Without a material the surface reflects nothing.
     pub fn shape_with_light(
         mut self,
@@ -138,13 +147,19 @@ impl SceneBuilder {
     /// Checks the scene and builds its acceleration structure.
     ///
     /// # Errors
-    /// The first invalid mesh or unknown material, or too many triangles.
+    /// The first invalid mesh, emission or unknown material, or too many triangles. Lights and materials are taken as
+    /// they are.
     pub fn build(self) -> Result<Scene, SceneError> {
         let mut shapes = Vec::with_capacity(self.shapes.len());
         let mut meshes = Vec::with_capacity(self.shapes.len());
         let mut lights = self.lights;
         for NewShape { name, mesh, material, emission } in self.shapes {
             mesh.check().map_err(|error| SceneError::Mesh(name.clone(), error))?;
+            if let Some(NewEmission::Constant(Emission { radiance, .. })) = emission
+                && !radiance.is_valid()
+            {
+                return Err(SceneError::Emission { shape: name, radiance: radiance.to_array() });
+            }
             let material = match material {
                 Some(material) => match self.materials.get(&material) {
                     Some(found) => found.clone(),

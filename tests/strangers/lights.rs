@@ -1,10 +1,14 @@
 //! Lights of another crate.
 
-use lobe::Spectrum;
+use std::sync::Arc;
+
+use lobe::geometry::BoundedPoint;
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::integrator::PathIntegrator;
-use lobe::light::{BoundingSphere, Light, LightSample, PointLight};
-use lobe::scene::SceneBuilder;
+use lobe::light::{BoundingSphere, Light, LightHit, LightSample, LightStrategy, PointLight};
+use lobe::sampling::uniform_triangle;
+use lobe::scene::{Emission, SceneBuilder, SceneError};
+use lobe::{RenderOptions, Scene, Spectrum, TriangleMesh, render};
 
 use crate::scenes::{ball_over_floor, chapter_view, independent};
 use crate::statistics::{assert_alike, bands, picture};
@@ -47,5 +51,100 @@ fn lights_of_unknown_power_are_found() {
     for told in [None, Some(0.0), Some(1e30), Some(f32::NAN)] {
         let both = lit(|scene| scene.light(Shy { light: one, told }).light(other));
         assert_alike(&sum, &both, &format!("told {told:?}"));
+    }
+}
+
+/// A lamp's mesh, seen from below.
+fn panel() -> TriangleMesh {
+    TriangleMesh::parallelogram(Vec3::new(-1.0, 2.5, -1.0), 2.0 * Vec3::X, 2.0 * Vec3::Z)
+}
+
+const RADIANCE: Spectrum = Spectrum::new(6.0, 4.0, 2.0);
+
+/// A lamp of another crate over that mesh, sampled by area: triangles and points at random.
+struct Panel;
+
+impl Panel {
+    fn pdf(distance: f32, cos_theta: f32) -> f32 {
+        distance * distance / (4.0 * cos_theta.abs())
+    }
+}
+
+impl Light for Panel {
+    fn is_delta(&self) -> bool {
+        false
+    }
+    fn sample_li(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
+        let (mesh, triangle) = (panel(), usize::from(u.x >= 0.5));
+        let b = uniform_triangle::sample(Vec2::new(2.0 * u.x - triangle as f32, u.y));
+        let point = BoundedPoint::on_triangle(mesh.corners(triangle), [b.x, b.y, 1.0 - b.x - b.y]);
+        let to_light = point.p - p;
+        let n = mesh.geometric_normal(triangle);
+        let pdf = Self::pdf(to_light.length(), to_light.normalize().dot(n));
+        LightSample::from_surface(p, point, n, RADIANCE, pdf)
+    }
+    fn pdf_li(&self, hit: &LightHit) -> f32 {
+        Self::pdf(hit.distance, hit.wi.dot(hit.n))
+    }
+    fn le(&self, _hit: &LightHit) -> Spectrum {
+        RADIANCE
+    }
+}
+
+/// A lamp of another crate on a mesh, without thought of rounding, gives what the crate's own gives.
+/// Caught: points that are not offset, so that the lamp's surface blocks some of its own light.
+#[test]
+fn a_light_on_a_mesh_does_not_shadow_itself() {
+    let lit = |add: &dyn Fn(SceneBuilder) -> SceneBuilder| {
+        let integrator =
+            PathIntegrator { strategy: LightStrategy::Light, ..PathIntegrator::new(1) };
+        let view = chapter_view(UVec2::splat(24));
+        bands(&picture(add(ball_over_floor()), &view, &independent(512, integrator)))
+    };
+    let emission = Emission { radiance: RADIANCE, two_sided: true };
+    let own = lit(&|scene| scene.lamp("panel", panel(), emission));
+    let foreign = lit(&|scene| scene.shape_with_light("panel", panel(), None, Panel));
+    assert_alike(&own, &foreign, "a lamp of another crate");
+}
+
+/// A light that rays hit without a density is counted, and does not count twice in silence. Caught: a default density of
+/// 0, which gives light that was sampled already its whole weight.
+#[test]
+fn a_light_without_density_is_counted() {
+    struct Forgetful;
+    impl Light for Forgetful {
+        fn is_delta(&self) -> bool {
+            false
+        }
+        fn sample_li(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
+            Panel.sample_li(p, u)
+        }
+        fn le(&self, hit: &LightHit) -> Spectrum {
+            Panel.le(hit)
+        }
+    }
+    let non_finite = |light: Arc<dyn Light>| {
+        let scene = ball_over_floor().shape_with_light("panel", panel(), None, light);
+        let settings = independent(16, PathIntegrator::new(3));
+        let view = chapter_view(UVec2::splat(24));
+        let options = RenderOptions::default();
+        render(&scene.build().unwrap(), &view, &settings, &options).unwrap().non_finite
+    };
+    assert_eq!(non_finite(Arc::new(Panel)), 0);
+    assert!(non_finite(Arc::new(Forgetful)) > 0);
+}
+
+/// Caught: emission that is taken as it is.
+#[test]
+fn emission_is_checked() {
+    for (radiance, good) in
+        [([0.0, 1.0, 2.0], true), ([0.0, -1.0, 2.0], false), ([f32::NAN; 3], false)]
+    {
+        let emission = Emission { radiance: radiance.into(), two_sided: false };
+        match Scene::builder().lamp("panel", panel(), emission).build() {
+            Ok(_) => assert!(good, "{radiance:?}"),
+            Err(SceneError::Emission { shape, .. }) => assert!(!good && shape == "panel"),
+            Err(error) => panic!("{error}"),
+        }
     }
 }

@@ -53,6 +53,9 @@ impl Light for ByTriangle {
     fn sample_li(&self, _p: Vec3, _u: Vec2) -> Option<LightSample> {
         None
     }
+    fn pdf_li(&self, _hit: &LightHit) -> f32 {
+        0.0
+    }
     fn le(&self, hit: &LightHit) -> Spectrum {
         let surface = hit.surface.expect("a hit on a surface");
         let place = surface.place().expect("a hit on a mesh");

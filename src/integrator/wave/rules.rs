@@ -111,6 +111,10 @@ impl PathRules {
     #[inline]
     pub fn emitted(&self, scene: &Scene, index: usize, at: &LightHit, path: &Path) -> Spectrum {
         let light = &*scene.lights()[index];
+        let le = light.le(at);
+        if le.is_black() {
+            return Spectrum::BLACK;
+        }
         let probability = self.lights.probability(index);
         // Light sampling cannot find paths from the camera or from delta events.
         let weight = if path.pdf == f32::INFINITY || probability == 0.0 {
@@ -120,7 +124,7 @@ impl PathRules {
         } else {
             return Spectrum::BLACK;
         };
-        path.beta * light.le(at) * weight
+        path.beta * le * weight
     }
 }
 

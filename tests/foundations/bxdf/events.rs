@@ -100,6 +100,26 @@ fn events_are_what_their_directions_say() {
     }
 }
 
+/// A mirror whose author forgot `sample_f`: the cosine hemisphere never finds its direction. Caught: black without a
+/// count.
+#[test]
+fn a_delta_lobe_without_sampling_is_counted() {
+    struct Forgotten;
+    impl BxDF for Forgotten {
+        fn flags(&self) -> BxdfFlags {
+            BxdfFlags::REFLECTION | BxdfFlags::SPECULAR
+        }
+        fn f(&self, _wo: Vec3, _wi: Vec3) -> Spectrum {
+            Spectrum::BLACK
+        }
+    }
+    let mut bsdf = flat();
+    bsdf.add(Lobe::Custom(&Forgotten));
+    let sample = bsdf.sample_f(view(0.5), 0.5, Vec2::splat(0.3), BxdfFlags::all());
+    assert!(sample.is_none_or(|sample| sample.f.is_black()));
+    assert_eq!(bsdf.rejected(), 1);
+}
+
 /// A mirror of reflectance 1 that returns this albedo estimate.
 #[derive(Clone, Copy)]
 struct Mirror(f32);
