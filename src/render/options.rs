@@ -14,7 +14,7 @@ use crate::integrator::Counters;
 pub struct RenderOptions<'a> {
     /// Number of threads; `None` for as many as the machine has.
     pub threads: Option<NonZeroUsize>,
-    /// Columns and rows of a tile, at least 1.
+    /// Columns and rows of a tile; 0 counts as 1.
     pub tile_size: u32,
     /// Samples per pixel, at least 1, in place of the settings'. With `time` it is the maximum, and `None` means no
     /// limit.
@@ -25,7 +25,7 @@ pub struct RenderOptions<'a> {
     /// `wasm32-unknown-unknown`, which has no clock.
     pub time: Option<Duration>,
     /// Whether to keep normal, depth and albedo of the first hits, the number of samples, and the variance of each
-    /// pixel.
+    /// pixel, from which [`Picture::standard_error`] is.
     pub layers: bool,
     /// Called after every tile by the thread that rendered it. Other threads wait to deliver theirs until it
     /// returns, so it should be quick.

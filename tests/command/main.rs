@@ -47,6 +47,15 @@ fn render_writes_what_it_is_asked_for() {
     let png = fs::read(folder.0.join("a.PNG")).unwrap();
     assert!(png.windows(6).any(|window| window == b"Seed\x007"));
 
+    // A single set of Sobol points has no estimate of its error.
+    for (spp, known) in [(8, true), (7, false)] {
+        let summary = folder.prints(&format!(
+            "render s.toml -o d.exr --spp {spp} --set sampler.type=\"sobol\" --set sampler.replicates=2"
+        ));
+        assert_eq!(value(&summary, "error") != "unknown:", known, "{summary}");
+        fs::remove_file(folder.0.join("d.exr")).unwrap();
+    }
+
     folder.prints("render s.toml -o b.png -o c.exr --quiet");
     assert_eq!(folder.files(), ["a.PNG", "b.png", "c.exr", "s.toml", "wall.obj"]);
 }

@@ -25,7 +25,7 @@ const EXAMPLES: &str = r#"Examples:
   lobe render chapter8.toml --set 'shape.dragon.obj="other.obj"'    strings need their quotes
 
 A PNG is for viewing. An EXR contains linear radiance, its variance, the number of samples, and
-normal, depth and albedo of the first hits."#;
+normal, depth and albedo of the first hits; only with one is the error of the picture printed."#;
 
 /// Renders a scene file to PNG and EXR
 #[derive(Args)]
@@ -118,8 +118,16 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         let rays = rendered.counters.rays();
         summary.add("rays", rays);
         summary.add("speed", format!("{:.2} Mrays/s", rays as f64 / rendered.seconds / 1e6));
-        if let Some(error) = rendered.picture.standard_error() {
-            summary.add("error", format!("{error:.2e} standard error of a pixel, in radiance"));
+        match rendered.picture.standard_error() {
+            Some(error) => {
+                summary.add("error", format!("{error:.2e} standard error of a pixel, in radiance"));
+            }
+            // Each layer costs time, so there is no error without an EXR.
+            None if options.layers => {
+                summary
+                    .add("error", "unknown: the samples are a single set; see sampler.replicates");
+            }
+            None => {}
         }
         summary.add("non-finite", format!("{} samples", rendered.non_finite));
         if rendered.counters.rejected > 0 {
