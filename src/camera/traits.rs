@@ -44,7 +44,7 @@ pub trait Camera: Send + Sync {
 
     /// What it is and where it stands, in one line for people.
     fn describe(&self) -> String {
-        "of another crate".to_owned()
+        "custom".to_owned()
     }
 }
 

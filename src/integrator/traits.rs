@@ -44,7 +44,7 @@ pub trait Integrator: Send + Sync {
 
     /// Name and settings, in one line for people. Integrators with equal descriptions are taken to be equal.
     fn describe(&self) -> String {
-        "of another crate".to_owned()
+        "custom".to_owned()
     }
 
     /// Wraps the integrator for settings, without a second `Arc` around one that is shared.
