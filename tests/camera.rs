@@ -9,7 +9,7 @@ use lobe::camera::{
     Camera, CameraError, EquirectangularCamera, EquirectangularSettings, Handedness,
     OrthographicCamera, OrthographicSettings, PerspectiveCamera, PerspectiveSettings,
 };
-use lobe::film::{Filter, FilterError};
+use lobe::film::{FilterError, TentFilter};
 use lobe::geometry::Ray;
 use lobe::glam::{DMat3, DVec3, UVec2, Vec2, Vec3};
 use lobe::image::Window;
@@ -425,7 +425,7 @@ fn directions_need_no_unit_length() {
 #[test]
 fn views_that_cannot_be() {
     let camera = || PerspectiveCamera::new(&chapter_camera(), UVec2::new(8, 6)).unwrap();
-    let film = FilmSettings::new(8, 6);
+    let film = || FilmSettings::new(8, 6);
     let error = |film| View::new(camera(), film).err().unwrap();
     let other = error(FilmSettings::new(8, 7));
     assert_eq!(
@@ -435,12 +435,12 @@ fn views_that_cannot_be() {
     assert_eq!(error(FilmSettings::new(0, 6)), ViewError::Camera(CameraError::Resolution(0, 6)));
     let window = Window { min: UVec2::new(3, 3), max: UVec2::new(9, 4) };
     assert_eq!(
-        error(FilmSettings { crop: Some(window), ..film }).to_string(),
+        error(FilmSettings { crop: Some(window), ..film() }).to_string(),
         "the film's crop [3, 3, 9, 4] is empty or reaches beyond its resolution of 8 x 6"
     );
-    let filter = Filter::Tent { radius: 0.0 };
-    assert_eq!(error(FilmSettings { filter, ..film }), ViewError::Filter(FilterError::Radius(0.0)));
-    assert!(View::new(camera(), film).is_ok());
+    let film_without_width = film().with_filter(TentFilter { radius: 0.0 });
+    assert_eq!(error(film_without_width), ViewError::Filter(FilterError::Radius(0.0)));
+    assert!(View::new(camera(), film()).is_ok());
 }
 
 /// Errors of the camera kinds.
