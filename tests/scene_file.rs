@@ -368,8 +368,8 @@ fn wrong_types() {
             "s.toml:2:7: `camera.fov` is \"wide\", expected degrees above 0 and below 180",
         ),
         (
-            "[camera]\neye = [1, true, 3]",
-            "s.toml:2:7: `camera.eye` is [1, true, 3], expected [x, y, z], all finite",
+            "[camera]\nup = [1, true, 3]",
+            "s.toml:2:6: `camera.up` is [1, true, 3], expected [x, y, z], all finite",
         ),
         (
             "[camera]\nup = [0, 1]",
@@ -421,7 +421,11 @@ fn values_out_of_range() {
     all_refused(&[
         (
             "[camera]\neye = [0, -1e13, 0]",
-            "s.toml:2:7: the camera's eye is not finite, or is beyond 1e12",
+            "s.toml:2:7: `camera.eye` is [0, -1e13, 0], expected [x, y, z], each from -1e12 to 1e12",
+        ),
+        (
+            "[film]\nresolution = [4, 1]\n[camera]\ntype = \"orthographic\"\nextent = 5e11",
+            "s.toml:5:10: the camera's extent is 500000000000, which makes the longer side of the image 2e12: that can be at most 1e12",
         ),
         (
             "[camera]\nfov = 180",
@@ -436,12 +440,16 @@ fn values_out_of_range() {
             "s.toml:2:7: `camera.fov` is 1e39, expected degrees above 0 and below 180",
         ),
         (
+            "[camera]\nup = [0, -inf, 0]",
+            "s.toml:2:6: `camera.up` is [0, -inf, 0], expected [x, y, z], all finite",
+        ),
+        (
             "[camera]\neye = [0, -inf, 0]",
-            "s.toml:2:7: `camera.eye` is [0, -inf, 0], expected [x, y, z], all finite",
+            "s.toml:2:7: `camera.eye` is [0, -inf, 0], expected [x, y, z], each from -1e12 to 1e12",
         ),
         (
             "[camera]\nlens_radius = -1",
-            "s.toml:2:15: `camera.lens_radius` is -1, expected a finite number of at least 0",
+            "s.toml:2:15: `camera.lens_radius` is -1, expected a number from 0 to 1e12",
         ),
         (
             "[camera]\nfocal_distance = 0",
