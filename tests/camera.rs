@@ -443,7 +443,7 @@ fn views_that_cannot_be() {
     assert!(View::new(camera(), film()).is_ok());
 }
 
-/// Errors of the camera kinds.
+/// Errors of the camera kinds. Seen to fail with the extent, the longer side, up or an infinite focal distance unchecked.
 #[test]
 fn cameras_that_cannot_be() {
     let flat = OrthographicSettings::default();

@@ -154,7 +154,7 @@ fn the_share_below_a_place_is_u() {
 }
 
 /// In range at the ends, zero in the middle, and never decreasing: at 2¹⁶ neighbours from each of several
-/// places and at a million places in order.
+/// places and at a million places in order. Seen to fail with a box whose u is not returned as it is.
 #[test]
 fn places_never_decrease() {
     let ulp = 2.0_f32.powi(-24);
@@ -172,7 +172,8 @@ fn places_never_decrease() {
                 last = p.x;
             }
         }
-        for u in [0.0, ulp, 0.5, 1.0 - ulp] {
+        // 1e-9 is lost where a half is taken and given back.
+        for u in [0.0, 1e-9, ulp, 0.5, 1.0 - ulp] {
             let place = sampler.sample_in_pixel(Vec2::new(0.5, u));
             let expected = if filter.describe() == "box" { u } else { at(u).x + 0.5 };
             assert_eq!(place.to_array().map(f32::to_bits), [0.5, expected].map(f32::to_bits));
@@ -180,6 +181,7 @@ fn places_never_decrease() {
     }
 }
 
+/// Seen to fail with a filter that does not end at its radius.
 #[test]
 fn values_are_the_formulas() {
     let mut rng = Rng::new(42, 0);
@@ -204,6 +206,8 @@ fn error(filter: &dyn Filter) -> String {
     filter.prepare().unwrap_err().to_string()
 }
 
+/// Seen to fail with the check of the radius left out of the trait, of the Gaussian and of the tent, and with an infinite
+/// sigma let through.
 #[test]
 fn filters_without_sense_are_refused() {
     let radius = "the filter's radius is {}: it has to be above 0 and at most 16 pixels";
