@@ -13,10 +13,10 @@ pub type Read = fn(&Table, UVec2) -> Result<Arc<dyn Camera>, Fault>;
 
 /// Rays for the samples of an image.
 ///
-/// A ray sees what it hits between its `t_min` and its `t_max`. Its direction may have any length but zero: it is
-/// normalized before the ray is traced, unless its length is 1 up to rounding. A ray is refused if its origin is not finite or beyond
-/// [`LARGEST_COORDINATE`], if its direction is zero or not finite, or if `t_min` or `t_max` is NaN: it is not
-/// traced, its sample is left out of the pixel, and
+/// A ray finds hits at distances from its `t_min` to its `t_max`. Its direction may have any length but zero: it is
+/// normalized before the ray is traced, unless its length is 1 up to rounding. A ray is refused if its origin is not
+/// finite or beyond [`LARGEST_COORDINATE`], if its direction is zero or not finite, or if `t_min` or `t_max` is NaN: it
+/// is not traced, its sample is left out of the pixel, and
 /// [`Counters::refused_camera_rays`](crate::integrator::Counters::refused_camera_rays) counts it.
 pub trait Camera: Send + Sync {
     /// Columns and rows of the image that the camera was built for.
