@@ -28,8 +28,8 @@
 //! # Traits
 //!
 //! Traits are the doors for other crates: [`bxdf::BxDF`], [`texture::Texture`], [`material::Material`],
-//! [`light::Light`], [`camera::Camera`], [`sampling::Sampler`] and [`integrator::Integrator`]. What most callers need stands at the
-//! root. Lengths are in scene units, angles in the unit that each item names, and radiance is in
+//! [`light::Light`], [`camera::Camera`], [`film::Filter`], [`sampling::Sampler`] and [`integrator::Integrator`]. What
+//! most callers need stands at the root. Lengths are in scene units, angles in the unit that each item names, and radiance is in
 //! W / (m² sr) if a scene unit is a metre.
 #![warn(missing_docs)]
 #![deny(unsafe_code)]

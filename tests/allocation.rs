@@ -9,7 +9,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags};
-use lobe::film::Filter;
+use lobe::film::GaussianFilter;
 use lobe::glam::Vec3;
 use lobe::integrator::{ChapterIntegrator, DirectIntegrator, PathIntegrator};
 use lobe::interaction::SurfaceInteraction;
@@ -87,7 +87,7 @@ fn rendering_allocates_nothing_after_set_up() {
         (any(PathIntegrator::new(6)), SamplerKind::BLUE_NOISE),
     ] {
         let sampler = SamplerSettings { kind, spp: 16, ..Default::default() };
-        let film = FilmSettings { filter: Filter::gaussian(), ..FilmSettings::new(100, 80) };
+        let film = FilmSettings::new(100, 80).with_filter(GaussianFilter::default());
         let view = View::perspective(&chapter_camera(), film).unwrap();
         let scene = ball_over_floor()
             .material("red", ForeignMaterial)

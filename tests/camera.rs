@@ -9,7 +9,7 @@ use lobe::camera::{
     Camera, CameraError, EquirectangularCamera, EquirectangularSettings, Handedness,
     OrthographicCamera, OrthographicSettings, PerspectiveCamera, PerspectiveSettings,
 };
-use lobe::film::{Filter, FilterError};
+use lobe::film::{FilterError, TentFilter};
 use lobe::geometry::Ray;
 use lobe::glam::{DMat3, DVec3, UVec2, Vec2, Vec3};
 use lobe::image::Window;
@@ -425,7 +425,7 @@ fn directions_need_no_unit_length() {
 #[test]
 fn views_that_cannot_be() {
     let camera = || PerspectiveCamera::new(&chapter_camera(), UVec2::new(8, 6)).unwrap();
-    let film = FilmSettings::new(8, 6);
+    let film = || FilmSettings::new(8, 6);
     let error = |film| View::new(camera(), film).err().unwrap();
     let other = error(FilmSettings::new(8, 7));
     assert_eq!(
@@ -435,33 +435,47 @@ fn views_that_cannot_be() {
     assert_eq!(error(FilmSettings::new(0, 6)), ViewError::Camera(CameraError::Resolution(0, 6)));
     let window = Window { min: UVec2::new(3, 3), max: UVec2::new(9, 4) };
     assert_eq!(
-        error(FilmSettings { crop: Some(window), ..film }).to_string(),
+        error(FilmSettings { crop: Some(window), ..film() }).to_string(),
         "the film's crop [3, 3, 9, 4] is empty or reaches beyond its resolution of 8 x 6"
     );
-    let filter = Filter::Tent { radius: 0.0 };
-    assert_eq!(error(FilmSettings { filter, ..film }), ViewError::Filter(FilterError::Radius(0.0)));
-    assert!(View::new(camera(), film).is_ok());
+    let film_without_width = film().with_filter(TentFilter { radius: 0.0 });
+    assert_eq!(error(film_without_width), ViewError::Filter(FilterError::Radius(0.0)));
+    assert!(View::new(camera(), film()).is_ok());
 }
 
-/// Errors of the camera kinds.
+/// Errors of the camera kinds. Seen to fail with the extent, the longer side, up or an infinite focal distance unchecked.
 #[test]
 fn cameras_that_cannot_be() {
     let flat = OrthographicSettings::default();
     let error = |settings| OrthographicCamera::new(&settings, RESOLUTION).err().unwrap();
     let extent = |extent| error(OrthographicSettings { extent, ..flat });
-    assert_eq!(extent(0.0), CameraError::Extent(0.0));
-    assert_eq!(extent(-1.0).to_string(), "the camera's extent is -1: it has to be above 0");
-    for wrong in [f32::NAN, f32::INFINITY, 9e11] {
-        assert_eq!(extent(wrong), CameraError::OutOfRange("extent"), "{wrong}");
+    for wrong in [0.0, -1.0, f32::NAN, f32::INFINITY, 1.1e12] {
+        let message =
+            format!("the camera's extent is {wrong}: it has to be above 0 and at most 1e12");
+        assert_eq!(extent(wrong).to_string(), message);
     }
+    let of = |extent, resolution| {
+        OrthographicCamera::new(&OrthographicSettings { extent, ..flat }, resolution)
+    };
+    assert!(of(1e12, UVec2::splat(7)).is_ok());
+    assert!(of(2.5e11, UVec2::new(1, 4)).is_ok());
     assert_eq!(
-        error(OrthographicSettings { lens_radius: -1.0, ..flat }),
-        CameraError::LensRadius(-1.0)
+        of(5e11, UVec2::new(1, 4)).err().unwrap().to_string(),
+        "the camera's extent is 500000000000, which makes the longer side of the image 2e12: \
+         that can be at most 1e12"
     );
-    assert_eq!(
-        error(OrthographicSettings { focal_distance: 0.0, ..flat }),
-        CameraError::FocalDistance(0.0)
-    );
+    for wrong in [-1.0, f32::NAN, f32::INFINITY, 1.1e12] {
+        assert_eq!(
+            error(OrthographicSettings { lens_radius: wrong, ..flat }).to_string(),
+            format!("the camera's lens_radius is {wrong}: it has to be from 0 to 1e12")
+        );
+    }
+    for wrong in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+        assert_eq!(
+            error(OrthographicSettings { focal_distance: wrong, ..flat }).to_string(),
+            format!("the camera's focal_distance is {wrong}: it has to be finite and above 0")
+        );
+    }
     assert_eq!(
         OrthographicCamera::new(&flat, UVec2::new(0, 4)).err(),
         Some(CameraError::Resolution(0, 4))
@@ -470,17 +484,31 @@ fn cameras_that_cannot_be() {
     for (settings, expected) in [
         (EquirectangularSettings { eye: Vec3::Z, ..around }, CameraError::NoDirection),
         (EquirectangularSettings { up: Vec3::Z, ..around }, CameraError::NoUp),
-        (EquirectangularSettings { eye: Vec3::NAN, ..around }, CameraError::OutOfRange("eye")),
         (
             EquirectangularSettings { look_at: Vec3::X * 2e12, ..around },
-            CameraError::OutOfRange("look_at"),
+            CameraError::OutOfRange("look_at", Vec3::X * 2e12),
         ),
     ] {
         assert_eq!(EquirectangularCamera::new(&settings, RESOLUTION).err(), Some(expected));
     }
-    let perspective = PerspectiveSettings { fov: 180.0, ..PerspectiveSettings::default() };
-    assert_eq!(
-        PerspectiveCamera::new(&perspective, RESOLUTION).err(),
-        Some(CameraError::Fov(180.0))
-    );
+    for (settings, message) in [
+        (
+            EquirectangularSettings { eye: Vec3::new(0.0, f32::NAN, 1.0), ..around },
+            "the camera's eye is [0, NaN, 1]: each coordinate has to be from -1e12 to 1e12",
+        ),
+        (
+            EquirectangularSettings { up: Vec3::new(0.0, f32::INFINITY, 1.0), ..around },
+            "the camera's up is [0, inf, 1]: it has to be finite",
+        ),
+    ] {
+        let error = EquirectangularCamera::new(&settings, RESOLUTION).err().unwrap();
+        assert_eq!(error.to_string(), message);
+    }
+    for fov in [0.0, 180.0, f32::NAN, f32::INFINITY] {
+        let perspective = PerspectiveSettings { fov, ..PerspectiveSettings::default() };
+        assert_eq!(
+            PerspectiveCamera::new(&perspective, RESOLUTION).err().unwrap().to_string(),
+            format!("the camera's fov is {fov} degrees: it has to be above 0 and below 180")
+        );
+    }
 }

@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 use std::time::Duration;
 
 use lobe::accel::InstructionSet;
-use lobe::film::Filter;
+use lobe::film::GaussianFilter;
 use lobe::glam::{UVec2, Vec3};
 use lobe::image::{Metadata, Picture, Window, write_exr};
 use lobe::integrator::PathIntegrator;
@@ -49,7 +49,7 @@ fn scene_for(set: InstructionSet) -> Scene {
 fn view(crop: Option<Window>) -> View {
     let camera = PerspectiveSettings { lens_radius: 0.2, focal_distance: 4.0, ..chapter_camera() };
     let film = FilmSettings { resolution: RESOLUTION, crop, ..FilmSettings::default() };
-    View::perspective(&camera, FilmSettings { filter: Filter::gaussian(), ..film }).unwrap()
+    View::perspective(&camera, film.with_filter(GaussianFilter::default())).unwrap()
 }
 
 fn settings(kind: SamplerKind, spp: u32, seed: u64) -> RenderSettings {

@@ -127,9 +127,10 @@ fn values_are_read_as_they_were_written() {
 fn ranges_are_open_or_closed() {
     const ANY: Key<f32> = Key::new("x", "");
     type Case = (Key<f32>, &'static str, &'static [f32], &'static [f32]);
-    let cases: [Case; 9] = [
+    let cases: [Case; 10] = [
         (ANY, "a finite number", &[0.0, -f32::MAX], &[f32::INFINITY, f32::NAN]),
         (ANY.range(0.0..=1.0), "a number from 0 to 1", &[0.0, 1.0], &[-0.1, 1.1, f32::NAN]),
+        (ANY.range(-1e12..=1e12), "a number from -1e12 to 1e12", &[-1e12, 1e12], &[1.1e12]),
         (ANY.range(0.0..=0.1), "a number from 0 to 0.1", &[0.1], &[0.11]),
         (ANY.above(0.0), "a finite number above 0", &[1e-30], &[0.0, -0.0, f32::INFINITY]),
         (ANY.at_least(0.0), "a finite number of at least 0", &[0.0, -0.0], &[-1e-30]),

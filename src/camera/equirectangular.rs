@@ -9,14 +9,15 @@ use super::placement::{Axes, EYE, HANDEDNESS, Handedness, LOOK_AT, UP, check_res
 use super::traits::{Camera, Read};
 use crate::geometry::Ray;
 use crate::geometry::angle::unit_circle;
-use crate::params::{AnyKey, Fault, Kind, Table};
+use crate::params::{Fault, Kind, Table};
 
 /// How an equirectangular camera stands. The defaults stand at the origin with +z in the middle of the image.
+/// Coordinates go up to [`MAX_COORDINATE`](crate::geometry::float::MAX_COORDINATE).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EquirectangularSettings {
-    /// Where it stands, in world space; each coordinate up to 1e12.
+    /// Where it stands, in world space.
     pub eye: Vec3,
-    /// A point in the middle of the image, other than `eye`; each coordinate up to 1e12.
+    /// A point in the middle of the image, other than `eye`.
     pub look_at: Vec3,
     /// A direction that is up in the middle of the image, of any length but zero; need not be across the view, but not
     /// along it.
@@ -97,13 +98,11 @@ impl Camera for EquirectangularCamera {
     }
 }
 
-const KEYS: &[&dyn AnyKey] = &[&EYE, &LOOK_AT, &UP, &HANDEDNESS];
-
 /// `type = "equirectangular"`
 pub(super) const KIND: Kind<Read> = Kind {
     name: "equirectangular",
     meaning: "All directions: a panorama, twice as wide as high",
-    keys: KEYS,
+    keys: &[&EYE, &LOOK_AT, &UP, &HANDEDNESS],
     read,
 };
 
@@ -116,6 +115,6 @@ fn read(table: &Table, resolution: UVec2) -> Result<Arc<dyn Camera>, Fault> {
     };
     match EquirectangularCamera::new(&settings, resolution) {
         Ok(camera) => Ok(Arc::new(camera)),
-        Err(error) => Err(fault(table, KEYS, error)),
+        Err(error) => Err(fault(table, error)),
     }
 }

@@ -6,31 +6,31 @@ use glam::{UVec2, Vec2, Vec3};
 
 use super::error::CameraError;
 use super::placement::{
-    Axes, EYE, FOCAL_DISTANCE, HANDEDNESS, Handedness, LENS_RADIUS, LOOK_AT, UP, check_lens,
-    check_resolution, fault,
+    Axes, EYE, FOCAL_DISTANCE, HANDEDNESS, Handedness, LARGEST, LENS_RADIUS, LOOK_AT, UP,
+    check_lens, check_resolution, fault,
 };
 use super::traits::{Camera, Read};
 use crate::geometry::Ray;
 use crate::geometry::float::MAX_COORDINATE;
-use crate::params::{AnyKey, Fault, Key, Kind, Table};
+use crate::params::{Fault, Key, Kind, Table};
 use crate::sampling::concentric_disk;
 
 /// How an orthographic camera stands and sees. The defaults look from the origin along +z at 2 × 2 units, as PBRT's
-/// screen does.
+/// screen does. Coordinates, the lens and both sides of the image go up to
+/// [`MAX_COORDINATE`](crate::geometry::float::MAX_COORDINATE).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrthographicSettings {
-    /// The middle of the plane that rays start from, in world space; each coordinate up to 1e12. What is behind the
-    /// plane is not seen.
+    /// The middle of the plane that rays start from, in world space. What is behind the plane is not seen.
     pub eye: Vec3,
-    /// A point in the middle of the image, other than `eye`; each coordinate up to 1e12.
+    /// A point in the middle of the image, other than `eye`.
     pub look_at: Vec3,
     /// A direction that is up in the image, of any length but zero; need not be across the view, but not along it.
     pub up: Vec3,
     /// Which kind of space the world is.
     pub handedness: Handedness,
-    /// Scene units across the shorter side of the image, above 0. Up to 1e12 across the longer side.
+    /// Scene units across the shorter side of the image, above 0.
     pub extent: f32,
-    /// Radius of the lens in scene units, from 0 to 1e12; 0 sees everything sharply.
+    /// Radius of the lens in scene units; 0 sees everything sharply.
     pub lens_radius: f32,
     /// Distance of the plane in focus along the view, in scene units, above 0. Only a lens uses it.
     pub focal_distance: f32,
@@ -75,12 +75,12 @@ impl OrthographicCamera {
         let Axes { right, up, forward } = Axes::new(eye, look_at, up, handedness)?;
         check_resolution(resolution)?;
         let pixel = f64::from(extent) / f64::from(resolution.min_element());
-        let longer_side = pixel * f64::from(resolution.max_element());
-        if longer_side.is_nan() || longer_side > f64::from(MAX_COORDINATE) {
-            return Err(CameraError::OutOfRange("extent"));
-        }
+        let longer_side = (pixel * f64::from(resolution.max_element())) as f32;
         if !EXTENT.limits().contains_f32(extent) {
             return Err(CameraError::Extent(extent));
+        }
+        if longer_side > MAX_COORDINATE {
+            return Err(CameraError::LongerSide { extent, longer_side });
         }
         check_lens(lens_radius, focal_distance)?;
         let radius = f64::from(lens_radius);
@@ -132,16 +132,16 @@ impl Camera for OrthographicCamera {
     }
 }
 
-const EXTENT: Key<f32> =
-    Key::new("extent", "scene units across the shorter side of the image").above(0.0).default(2.0);
-const KEYS: &[&dyn AnyKey] =
-    &[&EYE, &LOOK_AT, &UP, &HANDEDNESS, &EXTENT, &LENS_RADIUS, &FOCAL_DISTANCE];
+const EXTENT: Key<f32> = Key::new("extent", "scene units across the shorter side of the image")
+    .above(0.0)
+    .at_most(LARGEST)
+    .default(2.0);
 
 /// `type = "orthographic"`
 pub(super) const KIND: Kind<Read> = Kind {
     name: "orthographic",
     meaning: "Parallel rays: what is far away is not smaller",
-    keys: KEYS,
+    keys: &[&EYE, &LOOK_AT, &UP, &HANDEDNESS, &EXTENT, &LENS_RADIUS, &FOCAL_DISTANCE],
     read,
 };
 
@@ -157,6 +157,7 @@ fn read(table: &Table, resolution: UVec2) -> Result<Arc<dyn Camera>, Fault> {
     };
     match OrthographicCamera::new(&settings, resolution) {
         Ok(camera) => Ok(Arc::new(camera)),
-        Err(error) => Err(fault(table, KEYS, error)),
+        Err(error @ CameraError::LongerSide { .. }) => Err(Fault::new(table.mark(&EXTENT), error)),
+        Err(error) => Err(fault(table, error)),
     }
 }

@@ -12,15 +12,16 @@ use super::placement::{
 use super::traits::{Camera, Read};
 use crate::geometry::Ray;
 use crate::geometry::four::{Vec3x4, four, rays_x4};
-use crate::params::{AnyKey, Fault, Key, Kind, Table};
+use crate::params::{Fault, Key, Kind, Table};
 use crate::sampling::concentric_disk;
 
 /// How a perspective camera stands and sees. The defaults look from the origin along +z, 90 degrees wide.
+/// Coordinates and the lens radius go up to [`MAX_COORDINATE`](crate::geometry::float::MAX_COORDINATE).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PerspectiveSettings {
-    /// Where it stands, in world space; each coordinate up to 1e12.
+    /// Where it stands, in world space.
     pub eye: Vec3,
-    /// A point in the middle of the image, other than `eye`; each coordinate up to 1e12.
+    /// A point in the middle of the image, other than `eye`.
     pub look_at: Vec3,
     /// A direction that is up in the image, of any length but zero; need not be across the view, but not along it.
     pub up: Vec3,
@@ -28,7 +29,7 @@ pub struct PerspectiveSettings {
     pub handedness: Handedness,
     /// Field of view in degrees across the shorter side of the image, above 0 and below 180.
     pub fov: f32,
-    /// Radius of the lens in scene units, from 0 to 1e12; 0 is a pinhole, which sees everything sharply.
+    /// Radius of the lens in scene units; 0 is a pinhole, which sees everything sharply.
     pub lens_radius: f32,
     /// Distance of the plane in focus along the view, in scene units, above 0. Only a lens uses it.
     pub focal_distance: f32,
@@ -75,9 +76,6 @@ impl PerspectiveCamera {
         let PerspectiveSettings { eye, look_at, up, handedness, fov, lens_radius, focal_distance } =
             *settings;
         let Axes { right, up, forward } = Axes::new(eye, look_at, up, handedness)?;
-        if !fov.is_finite() {
-            return Err(CameraError::OutOfRange("fov"));
-        }
         if !FOV.limits().contains_f32(fov) {
             return Err(CameraError::Fov(fov));
         }
@@ -187,14 +185,12 @@ const FOV: Key<f32> = Key::new("fov", "field of view across the shorter side of 
     .above(0.0)
     .below(180.0)
     .default(90.0);
-const KEYS: &[&dyn AnyKey] =
-    &[&EYE, &LOOK_AT, &UP, &HANDEDNESS, &FOV, &LENS_RADIUS, &FOCAL_DISTANCE];
 
 /// `type = "perspective"`
 pub(super) const KIND: Kind<Read> = Kind {
     name: "perspective",
     meaning: "Perspective, with a thin lens if it has one",
-    keys: KEYS,
+    keys: &[&EYE, &LOOK_AT, &UP, &HANDEDNESS, &FOV, &LENS_RADIUS, &FOCAL_DISTANCE],
     read,
 };
 
@@ -210,6 +206,6 @@ fn read(table: &Table, resolution: UVec2) -> Result<Arc<dyn Camera>, Fault> {
     };
     match PerspectiveCamera::new(&settings, resolution) {
         Ok(camera) => Ok(Arc::new(camera)),
-        Err(error) => Err(fault(table, KEYS, error)),
+        Err(error) => Err(fault(table, error)),
     }
 }

@@ -4,7 +4,7 @@ use glam::{DVec3, UVec2, Vec3};
 
 use super::error::CameraError;
 use crate::geometry::float::MAX_COORDINATE;
-use crate::params::{AnyKey, Choice, Fault, Key, Table};
+use crate::params::{Choice, Fault, Key, Table};
 
 /// On which side of the view the right of the image lies: how a world's axes were meant.
 ///
@@ -24,9 +24,15 @@ impl Choice for Handedness {
         &[("left", Self::Left), ("right", Self::Right)];
 }
 
-pub(super) const EYE: Key<Vec3> = Key::new("eye", "where it stands").default(Vec3::ZERO);
-pub(super) const LOOK_AT: Key<Vec3> =
-    Key::new("look_at", "a point in the middle of the image").default(Vec3::Z);
+/// [`MAX_COORDINATE`] as the decimal that it was rounded from.
+pub(super) const LARGEST: f64 = 1e12;
+const _: () = assert!(LARGEST as f32 == MAX_COORDINATE);
+
+pub(super) const EYE: Key<Vec3> =
+    Key::new("eye", "where it stands").range(-LARGEST..=LARGEST).default(Vec3::ZERO);
+pub(super) const LOOK_AT: Key<Vec3> = Key::new("look_at", "a point in the middle of the image")
+    .range(-LARGEST..=LARGEST)
+    .default(Vec3::Z);
 pub(super) const UP: Key<Vec3> =
     Key::new("up", "a direction that is up in the image").default(Vec3::Y);
 pub(super) const HANDEDNESS: Key<Handedness> = Key::new(
@@ -36,22 +42,17 @@ pub(super) const HANDEDNESS: Key<Handedness> = Key::new(
 .default(Handedness::Left);
 pub(super) const LENS_RADIUS: Key<f32> =
     Key::new("lens_radius", "radius of the lens, in scene units; 0 for a pinhole")
-        .at_least(0.0)
+        .range(0.0..=LARGEST)
         .default(0.0);
 pub(super) const FOCAL_DISTANCE: Key<f32> =
     Key::new("focal_distance", "distance of the plane in focus, in scene units; for a lens")
         .above(0.0)
         .default(1.0);
 
-/// Says at the key that it is about why the values of a camera's keys do not fit together.
-pub(super) fn fault(table: &Table, keys: &[&dyn AnyKey], error: CameraError) -> Fault {
-    let name = match error {
-        CameraError::OutOfRange(name) => name,
-        CameraError::NoUp => UP.name(),
-        _ => LOOK_AT.name(),
-    };
-    let key = keys.iter().find(|key| key.name() == name).copied().unwrap_or(&LOOK_AT);
-    Fault::new(table.mark(key), error)
+/// Places a camera error at the key that caused it. Values out of their keys' ranges are refused before.
+pub(super) fn fault(table: &Table, error: CameraError) -> Fault {
+    let key = if error == CameraError::NoUp { UP } else { LOOK_AT };
+    Fault::new(table.mark(&key), error)
 }
 
 /// A camera's point of view and its axes, each of unit length and across the others. In f64, so that a camera far from
@@ -70,13 +71,13 @@ impl Axes {
         up: Vec3,
         handedness: Handedness,
     ) -> Result<Self, CameraError> {
-        let within = |v: Vec3| v.abs().max_element() <= MAX_COORDINATE && v.is_finite();
-        for (name, in_range) in
-            [("eye", within(eye)), ("look_at", within(look_at)), ("up", up.is_finite())]
-        {
-            if !in_range {
-                return Err(CameraError::OutOfRange(name));
+        for (key, point) in [(EYE, eye), (LOOK_AT, look_at)] {
+            if !point.to_array().iter().all(|x| key.limits().contains_f32(*x)) {
+                return Err(CameraError::OutOfRange(key.name(), point));
             }
+        }
+        if !up.is_finite() {
+            return Err(CameraError::Up(up));
         }
         let [eye, look_at, up]: [DVec3; 3] = [eye, look_at, up].map(DVec3::from);
         let forward = (look_at - eye).try_normalize().ok_or(CameraError::NoDirection)?;
@@ -94,16 +95,10 @@ impl Axes {
 
 /// Checks a lens: its radius and the distance of the plane in focus.
 pub(super) fn check_lens(radius: f32, focal_distance: f32) -> Result<(), CameraError> {
-    if radius.is_nan() || radius > MAX_COORDINATE {
-        return Err(CameraError::OutOfRange("lens_radius"));
-    }
-    if !focal_distance.is_finite() {
-        return Err(CameraError::OutOfRange("focal_distance"));
-    }
     if !LENS_RADIUS.limits().contains_f32(radius) {
         return Err(CameraError::LensRadius(radius));
     }
-    if !FOCAL_DISTANCE.limits().contains_f32(focal_distance) {
+    if !(FOCAL_DISTANCE.limits().contains_f32(focal_distance) && focal_distance.is_finite()) {
         return Err(CameraError::FocalDistance(focal_distance));
     }
     Ok(())
@@ -118,7 +113,7 @@ pub(super) fn check_resolution(resolution: UVec2) -> Result<(), CameraError> {
 }
 
 impl Handedness {
-    /// What a description of a camera says of it: nothing of the usual kind.
+    /// Suffix for descriptions; empty for the default.
     pub(super) fn note(self) -> &'static str {
         match self {
             Self::Left => "",

@@ -13,10 +13,10 @@ pub type Read = fn(&Table, UVec2) -> Result<Arc<dyn Camera>, Fault>;
 
 /// Rays for the samples of an image.
 ///
-/// A ray counts from its `t_min` to its `t_max`. Its direction may have any length but zero: before it is traced, it
-/// is normalized unless it has unit length to rounding. A ray is refused whose origin is not finite or beyond
-/// [`MAX_COORDINATE`], whose direction is zero or not finite, or whose `t_min` or `t_max` is NaN: it is not
-/// traced, its sample is left out of the pixel, and
+/// A ray finds hits at distances from its `t_min` to its `t_max`. Its direction may have any length but zero: it is
+/// normalized before the ray is traced, unless its length is 1 up to rounding. A ray is refused if its origin is not
+/// finite or beyond [`MAX_COORDINATE`], if its direction is zero or not finite, or if `t_min` or `t_max` is NaN: it
+/// is not traced, its sample is left out of the pixel, and
 /// [`Counters::refused_camera_rays`](crate::integrator::Counters::refused_camera_rays) counts it.
 pub trait Camera: Send + Sync {
     /// Columns and rows of the image that the camera was built for.
@@ -31,8 +31,8 @@ pub trait Camera: Send + Sync {
     /// `lens` in `[0, 1)²` is a uniform sample for the point on the lens; zero if [`Camera::has_lens`] is false.
     fn generate_ray(&self, pixel: UVec2, offset: Vec2, lens: Vec2) -> Ray;
 
-    /// Fills `rays` with [`Camera::generate_ray`] of one pixel for each offset and lens sample. An own version must
-    /// give the same bits.
+    /// Fills `rays` with [`Camera::generate_ray`] of one pixel for each offset and lens sample. An override must
+    /// give bit-identical rays.
     ///
     /// # Panics
     /// May panic unless all three slices have the same length.
@@ -82,7 +82,7 @@ pub(crate) fn prepare(ray: &mut Ray) -> bool {
     in_range && (is_unit || normalize(ray))
 }
 
-/// Of a squared length. Several times what rounding does to one that was normalized in f32.
+/// Tolerance on the squared length of a unit direction: several times the rounding error of normalizing in f32.
 const UNIT_TOLERANCE: f32 = 4e-6;
 
 #[cold]

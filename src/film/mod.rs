@@ -4,16 +4,16 @@
 //! proportion to it, so that a [`Film`] only sums samples. [`FilmContents`] says what it keeps besides: how the
 //! [`Variance`] of each pixel is estimated, and the first hits.
 
-mod film_sums;
+#[expect(clippy::module_inception, reason = "it is the file of `Film`")]
+mod film;
 mod filter;
-mod filter_kinds;
-mod filter_sampler;
 mod first_hits;
 mod pixel_sum;
 mod variance;
 
-pub use film_sums::{Film, FilmContents, FilmError};
-pub use filter::{Filter, FilterError};
-pub use filter_kinds::{FILTERS, ReadFilter};
-pub use filter_sampler::FilterSampler;
+pub use film::{Film, FilmContents, FilmError};
+pub use filter::{
+    BlackmanHarrisFilter, BoxFilter, FILTERS, Filter, FilterError, FilterSampler, GaussianFilter,
+    MAX_FILTER_RADIUS, ReadFilter, TentFilter,
+};
 pub use variance::Variance;

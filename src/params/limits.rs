@@ -1,5 +1,7 @@
 //! [`Limits`]: range and unit of numbers.
 
+use std::fmt::{self, Display, Formatter};
+
 /// Range and unit of the numbers in a value. By default any finite number is valid.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
@@ -13,6 +15,13 @@ struct Bound {
     at: f64,
     /// Whether the bound itself is in range.
     included: bool,
+}
+
+/// In decimal; large numbers with an exponent, as 1e12.
+impl Display for Bound {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        if self.at.abs() >= 1e7 { write!(f, "{:e}", self.at) } else { write!(f, "{}", self.at) }
+    }
 }
 
 impl Limits {
@@ -84,15 +93,15 @@ impl Limits {
     fn range(&self) -> Option<String> {
         Some(match (self.least, self.most) {
             (None, None) => return None,
-            (Some(a), None) if a.included => format!("of at least {}", a.at),
-            (Some(a), None) => format!("above {}", a.at),
-            (None, Some(b)) if b.included => format!("of at most {}", b.at),
-            (None, Some(b)) => format!("below {}", b.at),
+            (Some(a), None) if a.included => format!("of at least {a}"),
+            (Some(a), None) => format!("above {a}"),
+            (None, Some(b)) if b.included => format!("of at most {b}"),
+            (None, Some(b)) => format!("below {b}"),
             (Some(a), Some(b)) => match (a.included, b.included) {
-                (true, true) => format!("from {} to {}", a.at, b.at),
-                (true, false) => format!("of at least {} and below {}", a.at, b.at),
-                (false, true) => format!("above {} and up to {}", a.at, b.at),
-                (false, false) => format!("above {} and below {}", a.at, b.at),
+                (true, true) => format!("from {a} to {b}"),
+                (true, false) => format!("of at least {a} and below {b}"),
+                (false, true) => format!("above {a} and up to {b}"),
+                (false, false) => format!("above {a} and below {b}"),
             },
         })
     }

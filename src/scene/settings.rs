@@ -1,13 +1,15 @@
 //! Settings of film and emission, as plain values.
 
+use std::sync::Arc;
+
 use glam::UVec2;
 
-use crate::film::Filter;
+use crate::film::{BoxFilter, Filter};
 use crate::image::{Display, Window};
 use crate::spectrum::Spectrum;
 
 /// Resolution, crop, display curve and reconstruction filter of the image.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct FilmSettings {
     /// Columns and rows of the image.
     pub resolution: UVec2,
@@ -16,13 +18,24 @@ pub struct FilmSettings {
     /// Tone curve from radiance to the codes of a PNG.
     pub display: Display,
     /// The reconstruction filter.
-    pub filter: Filter,
+    pub filter: Arc<dyn Filter>,
 }
 
 impl FilmSettings {
+    /// The resolution of [`FilmSettings::default`].
+    pub const DEFAULT_RESOLUTION: UVec2 = UVec2::splat(500);
+
+    /// The display curve of [`FilmSettings::default`].
+    pub const DEFAULT_DISPLAY: Display = Display::Srgb;
+
     /// An image of `width` × `height` pixels, with default settings.
     pub fn new(width: u32, height: u32) -> Self {
         Self { resolution: UVec2::new(width, height), ..Self::default() }
+    }
+
+    /// The same with this filter, of the crate or of the caller's own.
+    pub fn with_filter(self, filter: impl Filter + 'static) -> Self {
+        Self { filter: filter.into_arc(), ..self }
     }
 
     /// The pixels to render.
@@ -31,20 +44,15 @@ impl FilmSettings {
     }
 }
 
-impl FilmSettings {
-    /// 500 × 500 pixels with a box filter and the sRGB curve.
-    pub const DEFAULT: Self = Self {
-        resolution: UVec2::splat(500),
-        crop: None,
-        display: Display::Srgb,
-        filter: Filter::Box,
-    };
-}
-
 impl Default for FilmSettings {
-    /// [`FilmSettings::DEFAULT`].
+    /// 500 × 500 pixels with a box filter and the sRGB curve.
     fn default() -> Self {
-        Self::DEFAULT
+        Self {
+            resolution: Self::DEFAULT_RESOLUTION,
+            crop: None,
+            display: Self::DEFAULT_DISPLAY,
+            filter: Arc::new(BoxFilter),
+        }
     }
 }
 

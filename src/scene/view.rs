@@ -59,7 +59,7 @@ fn size(resolution: UVec2) -> String {
 /// let side = PerspectiveSettings { eye: Vec3::X, ..front };
 /// for camera in [front, side] {
 ///     // All views share the scene's acceleration structure.
-///     let view = View::perspective(&camera, film)?;
+///     let view = View::perspective(&camera, film.clone())?;
 ///     let rendered =
 ///         render(&scene, &view, &RenderSettings::default(), &RenderOptions::default())?;
 ///     assert_eq!(rendered.picture.color.len(), 16 * 9);
@@ -91,7 +91,7 @@ impl View {
         if window.min.cmpge(window.max).any() || window.max.cmpgt(resolution).any() {
             return Err(ViewError::Crop(window, resolution.x, resolution.y));
         }
-        let filter = FilterSampler::new(film.filter)?;
+        let filter = film.filter.prepare()?;
         Ok(Self { camera: Arc::new(camera), film, filter })
     }
 
@@ -131,9 +131,7 @@ impl View {
         lens: &[Vec2],
         rays: &mut Vec<Ray>,
     ) {
-        if self.film.filter != Filter::Box {
-            film.iter_mut().for_each(|u| *u = self.filter.place(*u));
-        }
+        self.filter.sample_all_in_pixel(film);
         // The previous contents are overwritten.
         rays.resize(ids.len(), Ray::new(Vec3::ZERO, Vec3::Z));
         let (mut rays, mut offsets, mut lens) = (&mut rays[..], &*film, lens);

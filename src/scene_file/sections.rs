@@ -32,14 +32,14 @@ pub static CAMERA: Section<camera::Read> = Section {
 
 pub const RESOLUTION: Key<UVec2> = Key::new("resolution", "columns and rows of the image")
     .at_least(1.0)
-    .default(FilmSettings::DEFAULT.resolution);
+    .default(FilmSettings::DEFAULT_RESOLUTION);
 pub const CROP: Key<Option<[u32; 4]>> = Key::optional(
     "crop",
     "the part to render, [x0, y0, x1, y1] without column x1 and row y1; all of the image if left out",
 );
 pub const DISPLAY: Key<Display> =
     Key::new("display", "the curve of a PNG: sRGB's, or 1 - exp(-4 L)")
-        .default(FilmSettings::DEFAULT.display);
+        .default(FilmSettings::DEFAULT_DISPLAY);
 
 pub static FILM: Section<ReadFilter> = Section {
     key: "film",

@@ -1,8 +1,9 @@
 //! Images with a closed form for every pixel.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
-use lobe::film::Filter;
+use lobe::film::{BlackmanHarrisFilter, BoxFilter, Filter, GaussianFilter, TentFilter};
 use lobe::glam::{DVec2, DVec3, UVec2, Vec3};
 use lobe::image::Picture;
 use lobe::integrator::{DirectIntegrator, Integrator, PathIntegrator};
@@ -123,16 +124,37 @@ fn a_furnace_adds_up_all_reflections() {
     }
 }
 
+/// A filter of another crate: 1 - (x / 2)².
+#[derive(Debug)]
+struct Parabola;
+
+impl Filter for Parabola {
+    fn radius(&self) -> f32 {
+        2.0
+    }
+
+    fn profile(&self, x: f64) -> f64 {
+        1.0 - 0.25 * x * x
+    }
+}
+
 /// A lamp that fills the left half of the image, seen through each filter: a pixel's value is the fraction of its
 /// filter to the left of the middle, here by the sum of a million values. Seen to fail with the filter left out.
 #[test]
 fn a_filter_blurs_an_edge() {
-    for filter in [Filter::Box, Filter::tent(), Filter::gaussian(), Filter::blackman_harris()] {
+    let filters: [Arc<dyn Filter>; 5] = [
+        Arc::new(BoxFilter),
+        Arc::new(TentFilter::default()),
+        Arc::new(GaussianFilter::default()),
+        Arc::new(BlackmanHarrisFilter::default()),
+        Arc::new(Parabola),
+    ];
+    for filter in filters {
         let half =
             TriangleMesh::parallelogram(Vec3::new(-9.0, -9.0, 1.0), Vec3::X * 9.0, Vec3::Y * 18.0);
         let emission = Emission { radiance: Spectrum::WHITE, two_sided: true };
         let camera = PerspectiveSettings { fov: 40.0, ..PerspectiveSettings::default() };
-        let film = FilmSettings { filter, ..FilmSettings::new(8, 8) };
+        let film = FilmSettings::new(8, 8).with_filter(filter.clone());
         let picture = picture(
             Scene::builder().lamp("half", half, emission),
             &View::perspective(&camera, film).unwrap(),

@@ -4,7 +4,6 @@ use std::error::Error;
 
 use clap::Args;
 use lobe::TriangleMesh;
-use lobe::film::Filter;
 use lobe::params::Choice;
 use lobe::render::{RenderSettings, SamplerSettings};
 use lobe::scene::View;
@@ -80,7 +79,7 @@ fn add_view(summary: &mut Summary, view: &View) {
     summary.add("camera", view.camera().describe());
     summary.add_film(view.film());
     summary.add("display", view.film().display.name());
-    summary.add("filter", filter(view.film().filter));
+    summary.add("filter", view.film().filter.describe());
 }
 
 /// A line each for sampler and integrator.
@@ -92,13 +91,4 @@ fn add_settings(summary: &mut Summary, settings: &RenderSettings) {
     };
     summary.add("sampler", format!("{}, {spp} samples per pixel{sets}, seed {seed}", kind.name()));
     summary.add("integrator", settings.integrator.describe());
-}
-
-fn filter(filter: Filter) -> String {
-    let (name, radius) = (filter.name(), filter.radius());
-    match filter {
-        Filter::Box => name.into(),
-        Filter::Gaussian { sigma, .. } => format!("{name}, radius {radius} pixels, sigma {sigma}"),
-        _ => format!("{name}, radius {radius} pixels"),
-    }
 }

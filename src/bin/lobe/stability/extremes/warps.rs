@@ -3,7 +3,7 @@
 use std::f32::consts::PI;
 use std::f64::consts::TAU;
 
-use lobe::film::{Filter, FilterSampler};
+use lobe::film::{Filter, GaussianFilter};
 use lobe::glam::{DVec2, Vec2, Vec3};
 use lobe::sampling::{
     Discrete, SphericalRectangle, concentric_disk, cosine_hemisphere, uniform_cone,
@@ -63,7 +63,7 @@ pub fn our_share(share: Share, extreme: f32) -> f64 {
     let rectangle = SphericalRectangle::new(Vec3::ZERO, corner, ex, ey);
     let by_weight = Discrete::new(weights());
     let cells = Discrete::new([1.0; CELLS]);
-    let filter = FilterSampler::new(Filter::gaussian());
+    let filter = GaussianFilter::default().prepare();
     share(
         [
             &|u| are_weights(uniform_triangle::sample(u)),

@@ -2,70 +2,89 @@
 
 use glam::Vec2;
 
-use super::{Filter, FilterError};
+use super::parameters::{FilterError, check_radius};
 
-/// Draws positions in proportion to a [`Filter`]. Prepared once, used for every sample.
+/// Draws positions in proportion to a [`Filter`](super::Filter). [`Filter::prepare`](super::Filter::prepare) makes it
+/// once, and it is used for every sample.
 ///
 /// On each axis the position depends on that axis' random number alone and never decreases with it, so stratification is
 /// kept. Box and tent are inverted in closed form. The others are approximated by a piecewise linear density, which is
-/// inverted exactly; it differs from the filter by less than 10⁻⁴ of its peak, and the cumulative distribution by less
-/// than 5 · 10⁻⁶ (2 · 10⁻⁶ for the default parameters).
+/// inverted exactly. For the crate's filters it differs from the filter by less than 10⁻⁴ of its peak, and the
+/// cumulative distribution by less than 5 · 10⁻⁶ (2 · 10⁻⁶ for the default parameters).
 ///
 /// ```
-/// use lobe::film::{Filter, FilterSampler};
+/// use lobe::film::{BoxFilter, Filter, TentFilter};
 /// use lobe::glam::Vec2;
 ///
-/// let u = Vec2::new(0.25, 0.5);
-/// assert_eq!(FilterSampler::new(Filter::Box)?.sample(u), Vec2::new(-0.25, 0.0));
-/// assert_eq!(FilterSampler::new(Filter::Box)?.place(u), u);
-/// assert!(FilterSampler::new(Filter::Tent { radius: 0.0 }).is_err());
+/// let (u, sampler) = (Vec2::new(0.25, 0.5), BoxFilter.prepare()?);
+/// assert_eq!(sampler.sample(u), Vec2::new(-0.25, 0.0));
+/// assert_eq!(sampler.sample_in_pixel(u), u);
+/// assert!(TentFilter { radius: 0.0 }.prepare().is_err());
 /// # Ok::<(), lobe::film::FilterError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct FilterSampler(Kind);
+pub struct FilterSampler(Inversion);
 
+/// How the cumulative distribution of one axis is inverted.
 #[derive(Clone, Debug)]
-enum Kind {
-    Box,
-    Tent(f32),
-    Table(Box<Table>),
+enum Inversion {
+    Pixel,
+    /// With this radius.
+    Triangular(f32),
+    Tabulated(Box<Table>),
 }
 
 impl FilterSampler {
-    /// Prepares a filter.
+    /// Uniform over the pixel.
+    pub fn pixel() -> Self {
+        Self(Inversion::Pixel)
+    }
+
+    /// A density that falls linearly from the centre to zero at `radius`, in pixels.
     ///
     /// # Errors
-    /// As for [`Filter::check`].
-    pub fn new(filter: Filter) -> Result<Self, FilterError> {
-        filter.check()?;
-        Ok(Self(match filter {
-            Filter::Box => Kind::Box,
-            Filter::Tent { radius } => Kind::Tent(radius),
-            // Beyond 6.5 standard deviations lies less than 2⁻³³ of a Gaussian.
-            Filter::Gaussian { radius, sigma } => {
-                Kind::Table(Box::new(Table::new(filter, radius.min(6.5 * sigma))))
-            }
-            Filter::BlackmanHarris { radius } => Kind::Table(Box::new(Table::new(filter, radius))),
-        }))
+    /// [`FilterError::Radius`].
+    pub fn triangular(radius: f32) -> Result<Self, FilterError> {
+        check_radius(radius)?;
+        Ok(Self(Inversion::Triangular(radius)))
+    }
+
+    /// A density in proportion to `profile`, a function of the distance from the centre: interpolated linearly
+    /// between its values at 513 distances from 0 to `radius`, in pixels.
+    ///
+    /// # Errors
+    /// [`FilterError::Radius`], and [`FilterError::Profile`] where one of these values is wrong.
+    pub fn from_profile(radius: f32, profile: impl Fn(f64) -> f64) -> Result<Self, FilterError> {
+        check_radius(radius)?;
+        Ok(Self(Inversion::Tabulated(Box::new(Table::new(radius, profile)?))))
     }
 
     /// Maps `u` in `[0, 1)²` to an offset from the pixel's centre, in pixels.
     #[inline]
     pub fn sample(&self, u: Vec2) -> Vec2 {
         match &self.0 {
-            Kind::Box => u - 0.5,
-            Kind::Tent(radius) => Vec2::new(tent(u.x, *radius), tent(u.y, *radius)),
-            Kind::Table(table) => Vec2::new(table.sample(u.x), table.sample(u.y)),
+            Inversion::Pixel => u - 0.5,
+            Inversion::Triangular(radius) => {
+                Vec2::new(triangular(u.x, *radius), triangular(u.y, *radius))
+            }
+            Inversion::Tabulated(table) => Vec2::new(table.sample(u.x), table.sample(u.y)),
         }
     }
 
     /// Maps `u` in `[0, 1)²` to a position relative to the pixel's upper left corner, in pixels. For a box it is `u`
     /// itself, bit by bit.
     #[inline]
-    pub fn place(&self, u: Vec2) -> Vec2 {
+    pub fn sample_in_pixel(&self, u: Vec2) -> Vec2 {
         match self.0 {
-            Kind::Box => u,
+            Inversion::Pixel => u,
             _ => self.sample(u) + 0.5,
+        }
+    }
+
+    /// Replaces each value by [`sample_in_pixel`](Self::sample_in_pixel) of it.
+    pub(crate) fn sample_all_in_pixel(&self, values: &mut [Vec2]) {
+        if !matches!(self.0, Inversion::Pixel) {
+            values.iter_mut().for_each(|u| *u = self.sample_in_pixel(*u));
         }
     }
 }
@@ -76,9 +95,9 @@ fn signed(u: f32) -> f32 {
     2.0 * u - 1.0
 }
 
-/// Inverts 1 - (1 - x / radius)², the cumulative distribution of a tent's positive half.
+/// Inverts 1 - (1 - x / radius)², the cumulative distribution of the positive half.
 #[inline]
-fn tent(u: f32, radius: f32) -> f32 {
+fn triangular(u: f32, radius: f32) -> f32 {
     let t = signed(u);
     radius * (t / (1.0 + (1.0 - t.abs()).sqrt()))
 }
@@ -108,8 +127,18 @@ struct Cell {
 }
 
 impl Table {
-    fn new(filter: Filter, extent: f32) -> Self {
-        let knot = |i: usize| filter.profile(f64::from(extent) * i as f64 / CELLS as f64);
+    fn new(extent: f32, profile: impl Fn(f64) -> f64) -> Result<Self, FilterError> {
+        let place = |i: usize| f64::from(extent) * i as f64 / CELLS as f64;
+        let knots: [f64; CELLS + 1] = std::array::from_fn(|i| profile(place(i)));
+        // Never negative, never rising, and finite in f32.
+        let mut last = f64::from(f32::MAX);
+        for (i, value) in knots.into_iter().enumerate() {
+            if !(0.0..=last).contains(&value) || value == 0.0 && i == 0 {
+                return Err(FilterError::Profile { x: place(i), value });
+            }
+            last = value;
+        }
+        let knot = |i: usize| knots[i];
         let area = |i: usize| 0.5 * (knot(i) + knot(i + 1));
         let total: f64 = (0..CELLS).map(area).sum();
         let mut before = 0.0;
@@ -127,7 +156,7 @@ impl Table {
             let share = part as f32 / CELLS as f32;
             (cells.partition_point(|cell| cell.before <= share) - 1) as u16
         });
-        Self { extent, cells, first }
+        Ok(Self { extent, cells, first })
     }
 
     /// Inverts the cumulative distribution. Each step is monotone in `u` even as rounded, because the density falls within
