@@ -141,11 +141,9 @@ fn chart_says_what_is_wrong() {
     let folder = folder("chart_wrong");
     folder.prints("render s.toml -o small.exr --set film.resolution=[4,4] --quiet");
     folder.prints(CHART);
-    folder.fails(
-        &format!("{CHART} --set film.resolution=[21,10]"),
-        "`c/plan.toml` holds a chart of another scene, or with other settings: choose another folder with -o, or \
-         start again with --fresh",
-    );
+    let another = "`c/plan.toml` holds a chart of another scene, or with other settings: choose another folder with -o, \
+                   or start again with --fresh";
+    folder.fails(&format!("{CHART} --set film.resolution=[21,10]"), another);
     folder.fails(
         &format!("{CHART} --add x=no.exr,1"),
         "cannot read `no.exr`: No such file or directory (os error 2)",
@@ -194,15 +192,65 @@ fn chart_says_what_is_wrong() {
         assert!(said.starts_with(&format!("error: {message}")), "{list:?}: {said}");
         assert!(!folder.0.join("d").exists(), "{list:?}");
     }
+    // A plan of an earlier version, whose checksum had another name.
+    let plan = fs::read_to_string(folder.0.join("c/plan.toml")).unwrap();
+    assert!(plan.contains("\nfingerprint = "), "{plan}");
+    folder.write("c/plan.toml", &plan.replace("fingerprint", "print"));
+    folder.fails(CHART, another);
     folder.write("c/plan.toml", "budgets = 7");
     folder.fails(CHART, "`c/plan.toml` is not the plan of a chart: choose another folder with -o");
-    for usage in ["--budgets 0", "--seeds 1", "--time 0", "--add x", "--add x=a.exr,fast"] {
-        assert_eq!(
-            folder.run(&format!("chart sky.toml {usage}")).status.code(),
-            Some(2),
-            "{usage}"
-        );
+}
+
+/// Seen to fail with `--effort` parsed as seconds, and with options that have no effect accepted in silence.
+#[test]
+fn chart_refuses_arguments_without_effect() {
+    let folder = Folder::new("chart_usage");
+    let says = |arguments: &str, message: &str| {
+        let output = folder.run(&format!("chart {arguments}"));
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {said}");
+        assert!(said.contains(message), "{arguments}: {said}");
+    };
+    for usage in ["--budgets 0", "--seeds 1", "--threads 0", "--add x", "--add x=a.exr,fast"] {
+        says(&format!("s.toml {usage}"), "invalid value");
     }
+    says("s.toml --time 0", "expected a number of seconds above 0");
+    for factor in ["0", "-1", "inf", "nan", "x"] {
+        says(&format!("--stability --effort={factor}"), "expected a number above 0");
+    }
+    for option in [
+        "--set=film.resolution=[1,1]",
+        "--methods=list.toml",
+        "--time=300",
+        "--budgets=1",
+        "--seeds=8",
+        "--reference=8",
+        "--add=x=a.exr,1",
+        "--fresh",
+        "--threads=1",
+    ] {
+        let (name, _) = option.split_once('=').unwrap_or((option, ""));
+        says(&format!("--stability {option}"), "cannot be used with");
+        says(&format!("--stability {option}"), name);
+    }
+    says("s.toml --effort 2", "cannot be used with");
+    says("--effort 2", "required");
+    says("s.toml --stability", "cannot be used with");
+    says("", "required");
+    assert_eq!(folder.files(), ["s.toml", "wall.obj"]);
+}
+
+/// Seeds after the largest one begin again at 0. Seen to fail, with overflow checks, with a plain sum.
+#[test]
+fn chart_takes_the_largest_seed() {
+    let folder = folder("chart_seed");
+    let seed = u64::MAX;
+    folder
+        .prints(&format!("chart sky.toml --budgets 1,2 --seeds 2 -o c --set sampler.seed={seed}"));
+    let runs = fs::read_to_string(folder.0.join("c/runs.csv")).unwrap();
+    let seeds: Vec<&str> = runs.lines().skip(1).filter_map(|run| run.rsplit(',').nth(5)).collect();
+    assert!(seeds.contains(&"0") && seeds.contains(&"1"), "{runs}");
+    assert!(seeds.iter().all(|seed| ["0", "1"].contains(seed)), "{runs}");
 }
 
 /// All sweeps have a chart, and ours keeps its bounds. Seen to fail with a bound of zero for the sums.
@@ -222,6 +270,4 @@ fn stability_has_a_chart_for_each_question() {
         assert!(table.contains(&format!("\n{name},")), "{name}");
     }
     assert_eq!(page.matches("<svg").count(), names.len());
-    assert_eq!(folder.run("chart --stability sky.toml").status.code(), Some(2));
-    assert_eq!(folder.run("chart").status.code(), Some(2));
 }
