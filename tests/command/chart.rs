@@ -157,41 +157,52 @@ fn chart_says_what_is_wrong() {
     let expected = "; expected a table [methods] with lines such as\n  \
                     \"sobol, one set\" = ['sampler.type=\"sobol\"', 'sampler.replicates=1']";
     for (list, message) in [
-        ("", format!("list.toml: it is empty{expected}")),
-        ("[method]\na = []", format!("list.toml: unknown table `method`{expected}")),
-        ("[methods]\na = 1", format!("list.toml: `a` is not a list{expected}")),
-        ("[methods]", format!("list.toml: [methods] is empty{expected}")),
-        ("[methods]\na = [", "list.toml:2: unclosed array, expected `]`".into()),
+        ("", format!("1:1: there are no methods{expected}")),
+        ("\n[methods]", format!("2:1: there are no methods{expected}")),
+        (
+            "[method]\na = []",
+            "1:2: unknown key `method` in the list of methods; did you mean `methods`?".into(),
+        ),
+        ("methods = 1", "1:11: `methods` is 1, expected a table".into()),
+        ("[methods]\na = 1", "2:5: `a` is 1, expected a list of settings in quotes".into()),
+        ("[methods]\na = [\n7]", "3:1: 7 is not a setting in quotes".into()),
+        ("[methods]\na = [", "2:6: not valid TOML: unclosed array, expected `]`".into()),
         (
             "[methods]\na = ['film.resolution=[1,1]']",
-            format!(
-                "list.toml: `a` sets `film.resolution=[1,1]`, but methods can only set `sampler.` and \
-                 `integrator.`{expected}"
-            ),
+            "2:6: `film.resolution=[1,1]` is not a setting of a method: expected `sampler.` or `integrator.`"
+                .into(),
         ),
         (
-            "[methods]\na = ['sampler.type=\"sobl\"']",
-            "list.toml: method `a`: --set sampler.type=\"sobl\": `sampler.type` is \"sobl\"".into(),
+            "[methods]\na = [\n  'sampler.type=\"sobl\"']",
+            "3:3: method `a`: --set sampler.type=\"sobl\": `sampler.type` is \"sobl\", expected \"independent\", \
+             \"stratified\", \"sobol\" or \"blue-noise\""
+                .into(),
+        ),
+        (
+            "[methods]\na = ['sampler.replicates=1', 'sampler.replicate=1']",
+            "2:30: method `a`: --set sampler.replicate=1: unknown key `replicate` in [sampler]; did you mean \
+             `replicates`?"
+                .into(),
         ),
         (
             "[methods]\na = ['sampler.spp=4']",
-            format!(
-                "list.toml: `a` sets `sampler.spp=4`, which is chosen by --budgets and --seeds{expected}"
-            ),
+            "2:6: `sampler.spp=4` has no effect: it is chosen by --budgets and --seeds".into(),
         ),
         (
             "[methods]\n\"a\\nb\" = []",
-            format!(
-                "list.toml: \"a\\nb\" is not a name of one line and at most 80 bytes{expected}"
-            ),
+            "2:1: \"a\\nb\" is not a name of one line and at most 80 bytes".into(),
         ),
     ] {
         folder.write("list.toml", list);
-        let output = folder.run("chart sky.toml --methods list.toml -o d");
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert!(said.starts_with(&format!("error: {message}")), "{list:?}: {said}");
-        assert!(!folder.0.join("d").exists(), "{list:?}");
+        let message = format!("list.toml:{message}");
+        folder.fails("chart sky.toml --methods list.toml -o d", &message);
     }
+    folder.fails("chart sky.toml --methods no.toml", "no.toml: there is no such file");
+    // What is wrong without any method is not said of the list.
+    folder.fails(
+        "chart sky.toml --methods list.toml --set film.reslution=[1,1]",
+        "--set film.reslution=[1,1]: unknown key `reslution` in [film]; did you mean `resolution`?",
+    );
     // A plan of an earlier version, whose checksum had another name.
     let plan = fs::read_to_string(folder.0.join("c/plan.toml")).unwrap();
     assert!(plan.contains("\nfingerprint = "), "{plan}");
