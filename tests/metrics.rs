@@ -45,6 +45,15 @@ fn errors_are_those_by_hand() {
     close(errors.psnr(), 10.0 * (4.0 / errors.mse).log10());
 }
 
+/// Equal images have no noise, black ones neither, whose peak is 0. Seen to fail for black images with peak² / MSE alone.
+#[test]
+fn equal_images_have_infinite_psnr() {
+    for value in [0.0, 0.5] {
+        let image = image(SIZE, Encoding::Linear, |_, _| [value; 3]);
+        assert_eq!(Errors::between(&image, &image).unwrap().psnr(), f64::INFINITY, "{value}");
+    }
+}
+
 /// Images that cannot be compared give an error that says why, and where.
 #[test]
 fn what_cannot_be_compared_is_refused() {
@@ -77,6 +86,25 @@ fn flip_is_that_of_its_authors() {
         assert_eq!(mean(&b, &b), 0.0);
         let found = mean(&a, &b);
         assert!((found - expected).abs() < 1e-3, "{encoding:?}: {found}, expected {expected}");
+    }
+}
+
+/// A pixel beyond the saturation of the tone mapping curve is white, however bright. Seen to fail at 1e20 with the curve alone,
+/// whose numerator and denominator are infinite there.
+#[test]
+fn flip_sees_the_brightest_pixel() {
+    let dark = image(SIZE, Encoding::Linear, |_, _| [0.0; 3]);
+    let firefly = |value: f32| {
+        image(SIZE, Encoding::Linear, move |x, y| [if (x, y) == (20, 20) { value } else { 0.0 }; 3])
+    };
+    let at = |value: f32| {
+        let (seen, _) = flip(&firefly(value), &dark, Viewing::default()).unwrap();
+        seen[20 * 48 + 20]
+    };
+    let white = at(1.0);
+    assert!(white > 0.5, "{white}");
+    for value in [1e10, 1e20, 1e30, f32::MAX] {
+        assert_eq!(at(value), white, "{value:e}");
     }
 }
 

@@ -1,5 +1,7 @@
 //! [`Errors`]: MSE, MAE, relMSE and PSNR of two images.
 
+use std::ops::{Add, Mul};
+
 use glam::UVec2;
 
 use crate::image::{Encoding, Image};
@@ -75,7 +77,7 @@ impl Errors {
         Ok(Self {
             mse: mean(|a, b| (a - b).powi(2)),
             mae: mean(|a, b| (a - b).abs()),
-            rel_mse: mean(|a, b| (a - b).powi(2) / (b * b + 0.01)),
+            rel_mse: mean(|a, b| (a - b).powi(2) / rel_mse_denominator(b)),
             mean: mean(|a, b| a - b),
             peak,
         })
@@ -88,8 +90,20 @@ impl Errors {
 
     /// 10 log₁₀(peak² / MSE) in dB; infinite for equal images.
     pub fn psnr(&self) -> f64 {
+        // Otherwise 0 / 0 for images that are black.
+        if self.mse == 0.0 {
+            return f64::INFINITY;
+        }
         10.0 * (self.peak * self.peak / self.mse).log10()
     }
+}
+
+/// The denominator of relMSE for a value of the reference, or for several values at a time.
+pub(super) fn rel_mse_denominator<T>(reference: T) -> T
+where
+    T: Copy + Mul<Output = T> + Add<f64, Output = T>,
+{
+    reference * reference + 0.01
 }
 
 /// Checks that the images can be compared.

@@ -108,9 +108,12 @@ impl Exposures {
 const ACES: [f32; 6] = [0.36 * 2.51, 0.6 * 0.03, 0.0, 0.36 * 2.43, 0.6 * 0.59, 0.14];
 
 fn tone_map(p: Vec3) -> Vec3 {
+    // The curve exceeds 1 from 12.1 on; squares of much larger values would leave the range of f32.
+    const WHITE: f32 = 100.0;
     let [k0, k1, k2, k3, k4, k5] = ACES;
     let curve = |x: f32| (x * (k0 * x + k1) + k2) / (x * (k3 * x + k4) + k5);
-    Vec3::from(p.max(Vec3::ZERO).to_array().map(curve)).clamp(Vec3::ZERO, Vec3::ONE)
+    let p = p.clamp(Vec3::ZERO, Vec3::splat(WHITE));
+    Vec3::from(p.to_array().map(curve)).clamp(Vec3::ZERO, Vec3::ONE)
 }
 
 /// Weights of all filters, each separable.

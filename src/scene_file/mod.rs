@@ -19,7 +19,7 @@ pub use sections::SECTIONS;
 
 use crate::accel::InstructionSet;
 use crate::clock::Stopwatch;
-use crate::params::{Fault, Mark};
+use crate::params::{Document, Fault, Mark};
 use crate::render::RenderSettings;
 use crate::scene::{Scene, View};
 use crate::shape::ObjReport;
@@ -77,10 +77,29 @@ pub fn read_scene_for(
 /// # Errors
 /// Those of [`read_scene`], except for unknown materials and invalid meshes.
 pub fn read_settings(path: &Path, overrides: &[&str]) -> Result<RenderSettings, SceneFileError> {
+    Ok(read_with(path, overrides, assemble::describe)?.settings)
+}
+
+/// Reads a TOML file that is not a scene, such as a list of methods: passes its tree to `read`, and adds file, line and
+/// column to the faults that `read` returns.
+///
+/// # Errors
+/// If the file cannot be read or is not TOML, and those of `read`.
+pub fn read_document<T>(
+    path: &Path,
+    read: impl FnOnce(&Document) -> Result<T, Fault>,
+) -> Result<T, SceneFileError> {
+    read_with(path, &[], read)
+}
+
+fn read_with<T>(
+    path: &Path,
+    overrides: &[&str],
+    read: impl FnOnce(&Document) -> Result<T, Fault>,
+) -> Result<T, SceneFileError> {
     let text = read_text(path)?;
     let source = Source::new(path, &text, overrides);
-    let description = source.place(assemble::describe(&source.parse()?))?;
-    Ok(description.settings)
+    source.place(read(&source.parse()?))
 }
 
 fn read_text(path: &Path) -> Result<String, SceneFileError> {

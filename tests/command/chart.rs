@@ -141,11 +141,9 @@ fn chart_says_what_is_wrong() {
     let folder = folder("chart_wrong");
     folder.prints("render s.toml -o small.exr --set film.resolution=[4,4] --quiet");
     folder.prints(CHART);
-    folder.fails(
-        &format!("{CHART} --set film.resolution=[21,10]"),
-        "`c/plan.toml` holds a chart of another scene, or with other settings: choose another folder with -o, or \
-         start again with --fresh",
-    );
+    let another = "`c/plan.toml` holds a chart of another scene, or with other settings: choose another folder with -o, \
+                   or start again with --fresh";
+    folder.fails(&format!("{CHART} --set film.resolution=[21,10]"), another);
     folder.fails(
         &format!("{CHART} --add x=no.exr,1"),
         "cannot read `no.exr`: No such file or directory (os error 2)",
@@ -159,50 +157,111 @@ fn chart_says_what_is_wrong() {
     let expected = "; expected a table [methods] with lines such as\n  \
                     \"sobol, one set\" = ['sampler.type=\"sobol\"', 'sampler.replicates=1']";
     for (list, message) in [
-        ("", format!("list.toml: it is empty{expected}")),
-        ("[method]\na = []", format!("list.toml: unknown table `method`{expected}")),
-        ("[methods]\na = 1", format!("list.toml: `a` is not a list{expected}")),
-        ("[methods]", format!("list.toml: [methods] is empty{expected}")),
-        ("[methods]\na = [", "list.toml:2: unclosed array, expected `]`".into()),
+        ("", format!("1:1: there are no methods{expected}")),
+        ("\n[methods]", format!("2:1: there are no methods{expected}")),
+        (
+            "[method]\na = []",
+            "1:2: unknown key `method` in the list of methods; did you mean `methods`?".into(),
+        ),
+        ("methods = 1", "1:11: `methods` is 1, expected a table".into()),
+        ("[methods]\na = 1", "2:5: `a` is 1, expected a list of settings in quotes".into()),
+        ("[methods]\na = [\n7]", "3:1: 7 is not a setting in quotes".into()),
+        ("[methods]\na = [", "2:6: not valid TOML: unclosed array, expected `]`".into()),
         (
             "[methods]\na = ['film.resolution=[1,1]']",
-            format!(
-                "list.toml: `a` sets `film.resolution=[1,1]`, but methods can only set `sampler.` and \
-                 `integrator.`{expected}"
-            ),
+            "2:6: `film.resolution=[1,1]` is not a setting of a method: expected `sampler.` or `integrator.`"
+                .into(),
         ),
         (
-            "[methods]\na = ['sampler.type=\"sobl\"']",
-            "list.toml: method `a`: --set sampler.type=\"sobl\": `sampler.type` is \"sobl\"".into(),
+            "[methods]\na = [\n  'sampler.type=\"sobl\"']",
+            "3:3: method `a`: --set sampler.type=\"sobl\": `sampler.type` is \"sobl\", expected \"independent\", \
+             \"stratified\", \"sobol\" or \"blue-noise\""
+                .into(),
+        ),
+        (
+            "[methods]\na = ['sampler.replicates=1', 'sampler.replicate=1']",
+            "2:30: method `a`: --set sampler.replicate=1: unknown key `replicate` in [sampler]; did you mean \
+             `replicates`?"
+                .into(),
         ),
         (
             "[methods]\na = ['sampler.spp=4']",
-            format!(
-                "list.toml: `a` sets `sampler.spp=4`, which is chosen by --budgets and --seeds{expected}"
-            ),
+            "2:6: `sampler.spp=4` has no effect: it is chosen by --budgets and --seeds".into(),
         ),
         (
             "[methods]\n\"a\\nb\" = []",
-            format!(
-                "list.toml: \"a\\nb\" is not a name of one line and at most 80 bytes{expected}"
-            ),
+            "2:1: \"a\\nb\" is not a name of one line and at most 80 bytes".into(),
         ),
     ] {
         folder.write("list.toml", list);
-        let output = folder.run("chart sky.toml --methods list.toml -o d");
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert!(said.starts_with(&format!("error: {message}")), "{list:?}: {said}");
-        assert!(!folder.0.join("d").exists(), "{list:?}");
+        let message = format!("list.toml:{message}");
+        folder.fails("chart sky.toml --methods list.toml -o d", &message);
     }
+    folder.fails("chart sky.toml --methods no.toml", "no.toml: there is no such file");
+    // What is wrong without any method is not said of the list.
+    folder.fails(
+        "chart sky.toml --methods list.toml --set film.reslution=[1,1]",
+        "--set film.reslution=[1,1]: unknown key `reslution` in [film]; did you mean `resolution`?",
+    );
+    // A plan of an earlier version, whose checksum had another name.
+    let plan = fs::read_to_string(folder.0.join("c/plan.toml")).unwrap();
+    assert!(plan.contains("\nfingerprint = "), "{plan}");
+    folder.write("c/plan.toml", &plan.replace("fingerprint", "print"));
+    folder.fails(CHART, another);
     folder.write("c/plan.toml", "budgets = 7");
     folder.fails(CHART, "`c/plan.toml` is not the plan of a chart: choose another folder with -o");
-    for usage in ["--budgets 0", "--seeds 1", "--time 0", "--add x", "--add x=a.exr,fast"] {
-        assert_eq!(
-            folder.run(&format!("chart sky.toml {usage}")).status.code(),
-            Some(2),
-            "{usage}"
-        );
+}
+
+/// Seen to fail with `--effort` parsed as seconds, and with options that have no effect accepted in silence.
+#[test]
+fn chart_refuses_arguments_without_effect() {
+    let folder = Folder::new("chart_usage");
+    let says = |arguments: &str, message: &str| {
+        let output = folder.run(&format!("chart {arguments}"));
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {said}");
+        assert!(said.contains(message), "{arguments}: {said}");
+    };
+    for usage in ["--budgets 0", "--seeds 1", "--threads 0", "--add x", "--add x=a.exr,fast"] {
+        says(&format!("s.toml {usage}"), "invalid value");
     }
+    says("s.toml --time 0", "expected a number of seconds above 0");
+    for factor in ["0", "-1", "inf", "nan", "x"] {
+        says(&format!("--stability --effort={factor}"), "expected a number above 0");
+    }
+    for option in [
+        "--set=film.resolution=[1,1]",
+        "--methods=list.toml",
+        "--time=300",
+        "--budgets=1",
+        "--seeds=8",
+        "--reference=8",
+        "--add=x=a.exr,1",
+        "--fresh",
+        "--threads=1",
+    ] {
+        let (name, _) = option.split_once('=').unwrap_or((option, ""));
+        says(&format!("--stability {option}"), "cannot be used with");
+        says(&format!("--stability {option}"), name);
+    }
+    says("s.toml --effort 2", "cannot be used with");
+    says("--effort 2", "required");
+    says("s.toml --stability", "cannot be used with");
+    says("", "required");
+    assert_eq!(folder.files(), ["s.toml", "wall.obj"]);
+}
+
+/// Seeds after the largest one begin again at 0. Seen to fail, with overflow checks, with a plain sum.
+#[test]
+fn chart_takes_the_largest_seed() {
+    let folder = folder("chart_seed");
+    let seed = u64::MAX;
+    folder
+        .prints(&format!("chart sky.toml --budgets 1,2 --seeds 2 -o c --set sampler.seed={seed}"));
+    let runs = fs::read_to_string(folder.0.join("c/runs.csv")).unwrap();
+    let seeds: Vec<&str> = runs.lines().skip(1).filter_map(|run| run.rsplit(',').nth(5)).collect();
+    assert!(seeds.contains(&"0") && seeds.contains(&"1"), "{runs}");
+    assert!(seeds.iter().all(|seed| ["0", "1"].contains(seed)), "{runs}");
 }
 
 /// All sweeps have a chart, and ours keeps its bounds. Seen to fail with a bound of zero for the sums.
@@ -222,6 +281,4 @@ fn stability_has_a_chart_for_each_question() {
         assert!(table.contains(&format!("\n{name},")), "{name}");
     }
     assert_eq!(page.matches("<svg").count(), names.len());
-    assert_eq!(folder.run("chart --stability sky.toml").status.code(), Some(2));
-    assert_eq!(folder.run("chart").status.code(), Some(2));
 }

@@ -102,6 +102,29 @@ fn compare_tells_errors_and_fails_above_limits() {
     assert_eq!(folder.run("compare a.exr b.exr --fail-above speed=1").status.code(), Some(2));
 }
 
+/// Maps are checked before anything is read, and all three of them before the first is written. Seen to fail with the check
+/// left to the writing.
+#[test]
+fn maps_are_checked_before_comparing() {
+    let folder = Folder::new("maps");
+    folder.prints("render s.toml -o a.exr --quiet");
+    let summary = folder.prints("compare a.exr a.exr --maps m");
+    let wrote: Vec<_> = summary.lines().filter(|line| line.starts_with("wrote")).collect();
+    assert_eq!(wrote.len(), 3, "{summary}");
+    let files = ["a.exr", "m-absolute.png", "m-flip.png", "m-signed.png", "s.toml", "wall.obj"];
+    assert_eq!(folder.files(), files);
+
+    fs::create_dir(folder.0.join("n-flip.png")).unwrap();
+    folder.fails(
+        "compare a.exr a.exr --maps n",
+        "cannot write `n-flip.png`: it is a folder; give the name of a file in it",
+    );
+    folder.fails(
+        "compare no.exr a.exr --maps none/n",
+        "cannot write `none/n-absolute.png`: there is no folder `none`; create it first",
+    );
+}
+
 #[test]
 fn quiet_is_quiet() {
     let folder = Folder::new("quiet");

@@ -1,10 +1,10 @@
 //! `lobe compare`: errors of an image against a reference.
 
 use std::error::Error;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use lobe::image::{Image, write_file};
+use lobe::image::{Image, check_writable, write_file};
 use lobe::metrics::{ErrorMap, Errors, Exposures, Viewing, ZTest, z_test};
 
 use crate::summary::Summary;
@@ -43,6 +43,9 @@ pub struct Arguments {
     maps: Option<PathBuf>,
 }
 
+/// Names of the maps.
+const MAPS: [&str; 3] = ["absolute", "signed", "flip"];
+
 /// A metric that `--fail-above` can limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Metric {
@@ -72,7 +75,17 @@ fn limit(text: &str) -> Result<(Metric, f64), String> {
     if value.is_nan() { Err("a limit cannot be NaN".into()) } else { Ok((metric, value)) }
 }
 
+/// Path of the map with this name.
+fn map_path(prefix: &Path, name: &str) -> PathBuf {
+    let mut path = prefix.to_owned().into_os_string();
+    path.push(format!("-{name}.png"));
+    path.into()
+}
+
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    if let Some(prefix) = &arguments.maps {
+        MAPS.iter().try_for_each(|name| check_writable(map_path(prefix, name)))?;
+    }
     let image = Image::read(&arguments.image)?;
     let reference = Image::read(&arguments.reference)?;
     let errors = Errors::between(&image, &reference)?;
@@ -116,11 +129,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     if let Some(prefix) = &arguments.maps {
         let absolute = ErrorMap::absolute(&image, &reference)?;
         let signed = ErrorMap::signed(&image, &reference)?;
-        for (name, map) in [("absolute", absolute), ("signed", signed), ("flip", seen)] {
-            let mut path = prefix.clone().into_os_string();
-            path.push(format!("-{name}.png"));
+        for (name, map) in MAPS.iter().zip([absolute, signed, seen]) {
+            let path = map_path(prefix, name);
             write_file(&path, &map.png())?;
-            summary.add("wrote", PathBuf::from(path).display());
+            summary.add("wrote", path.display());
         }
     }
     summary.print()?;

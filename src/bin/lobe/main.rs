@@ -1,5 +1,6 @@
 //! The command `lobe`: renders scene files, shows what they contain, and compares images.
 
+mod arguments;
 mod chart;
 mod compare;
 mod help;

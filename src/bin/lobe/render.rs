@@ -1,7 +1,6 @@
 //! `lobe render`: renders a scene file to PNG and EXR.
 
 use std::error::Error;
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -12,6 +11,7 @@ use lobe::render::Progress;
 use lobe::scene_file::LoadedScene;
 use lobe::{RenderOptions, render};
 
+use crate::arguments::{ThreadsArgument, seconds};
 use crate::output::{Format, Output};
 use crate::progress::Bar;
 use crate::scene::{IsaArgument, SceneArguments};
@@ -54,9 +54,8 @@ pub struct Arguments {
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
 
-    /// Number of threads, up to 1024 [default: one per processor]; the picture does not depend on it
-    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: ThreadsArgument,
 
     /// Leaves out normal, depth and albedo from the EXR, which saves a tenth of the time
     #[arg(long)]
@@ -65,11 +64,6 @@ pub struct Arguments {
     /// Prints nothing but errors
     #[arg(short, long)]
     quiet: bool,
-}
-
-fn seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse().ok().and_then(|s| Duration::try_from_secs_f64(s).ok());
-    seconds.filter(|time| !time.is_zero()).ok_or("expected a number of seconds above 0".into())
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
@@ -81,7 +75,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let bar = (!arguments.quiet).then(|| Bar::new(view.film().window().area() as u64));
     let progress = |progress: Progress| bar.iter().for_each(|bar| bar.update(progress));
     let options = RenderOptions {
-        threads: arguments.threads.and_then(|threads| NonZeroUsize::new(threads.into())),
+        threads: arguments.threads.given(),
         layers: !arguments.no_layers && outputs.iter().any(|o| o.format == Format::Exr),
         spp: arguments.spp,
         time: arguments.time,

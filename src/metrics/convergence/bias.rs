@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::reference::weights;
+use super::super::errors::rel_mse_denominator;
 use super::{Reference, RunningMean};
 use crate::spectrum::Spectrum;
 
@@ -41,7 +41,7 @@ impl Bias {
             (0_u32..).zip(pictures.moments().zip(truth))
         {
             let apart = mean - truth;
-            let square = (apart * apart - variance - own) / weights(truth);
+            let square = (apart * apart - variance - own) / rel_mse_denominator(truth);
             let (x, y) = (index % image.size.x, index / image.size.x);
             let tile = &mut tiles[(y / TILE * columns + x / TILE) as usize];
             tile.0 += square.element_sum() / 3.0;
@@ -50,8 +50,9 @@ impl Bias {
             let expected = variance.max(own / part);
             variances += expected + own;
             // A squared normal variable has twice the squared variance; bands are taken to be fully correlated.
-            let of_square =
-                (2.0_f64.sqrt() * (expected + own) / weights(truth)).element_sum() / 3.0;
+            let of_square = (2.0_f64.sqrt() * (expected + own) / rel_mse_denominator(truth))
+                .element_sum()
+                / 3.0;
             unseen += of_square * of_square;
         }
         let bands = 3.0 * image.pixels.len() as f64;

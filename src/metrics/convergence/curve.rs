@@ -47,14 +47,14 @@ impl Curve {
             let runs: Vec<&Run> = own.iter().copied().filter(|run| run.spp == spp).collect();
             let of = |field: fn(&Run) -> f64| quartiles(runs.iter().map(|run| field(run)));
             let square = of(|run| run.rel_mse);
-            let floor = reference.floor() * reference.floor();
-            let without = |square: f64| (square - floor).max(0.0).sqrt();
             CurvePoint {
                 spp,
                 runs: runs.len(),
                 set_up: of(|run| run.set_up)[1],
                 seconds: of(|run| run.seconds)[1],
-                error: reference.claimed(square[1]).map(|_| square.map(without)),
+                error: reference
+                    .claimed(square[1])
+                    .map(|_| square.map(|square| reference.subtracted_from(square))),
                 measured: square.map(f64::sqrt),
             }
         };

@@ -1,7 +1,8 @@
 //! [`Reference`]: the picture that others are compared with, and its own error.
 
-use glam::{DVec3, UVec2};
+use glam::UVec2;
 
+use super::super::errors::rel_mse_denominator;
 use super::RunningMean;
 use crate::image::{Encoding, Image};
 
@@ -36,7 +37,7 @@ impl Reference {
         let image = Image { size, pixels, variance, encoding: Encoding::Linear };
         let mut squares: Vec<f64> = parts
             .moments()
-            .map(|(mean, variance)| (variance / weights(mean)).element_sum() / 3.0)
+            .map(|(mean, variance)| (variance / rel_mse_denominator(mean)).element_sum() / 3.0)
             .collect();
         let total: f64 = squares.iter().sum();
         let floor = (total / squares.len() as f64).sqrt();
@@ -68,16 +69,16 @@ impl Reference {
     /// The root of a measured relMSE with the reference's own part subtracted; `None` if the result is not above the
     /// reference's own error.
     pub fn claimed(&self, rel_mse: f64) -> Option<f64> {
-        let error = (rel_mse - self.floor * self.floor).max(0.0).sqrt();
+        let error = self.subtracted_from(rel_mse);
         (error > self.floor).then_some(error)
+    }
+
+    /// The root of a measured relMSE with the reference's own part subtracted; 0 if the result is negative.
+    pub(super) fn subtracted_from(&self, rel_mse: f64) -> f64 {
+        (rel_mse - self.floor * self.floor).max(0.0).sqrt()
     }
 }
 
 /// Share of the squared error in the worst thousandth of the pixels from which on a reference is not trusted. It is about
 /// 0.01 if the noise is alike everywhere.
 const RARE: f64 = 0.5;
-
-/// The denominator of relMSE.
-pub(super) fn weights(reference: DVec3) -> DVec3 {
-    reference * reference + 0.01
-}

@@ -25,6 +25,8 @@ pub struct Bench<'a> {
     /// Remarks for the report.
     pub notes: Vec<String>,
     pub options: RenderOptions<'a>,
+    /// Number of threads that render.
+    pub threads: usize,
     pub folder: Folder,
     pub is_quiet: bool,
 }
@@ -57,12 +59,11 @@ const CHECK_SEEDS: u64 = 2_000_000;
 impl<'a> Bench<'a> {
     /// Renders the missing pictures, and evaluates all of them.
     pub fn measure(&mut self, limits: &Limits) -> Result<Measured, Box<dyn Error>> {
-        let (costs, print) = self.try_out()?;
+        let (costs, fingerprint) = self.try_out()?;
         let [reference, check] = self.truths();
         let truth_costs = [cost(&reference)?, cost(&check)?];
-        let plan = self.agree(limits, &costs, truth_costs, print)?;
+        let plan = self.agree(limits, &costs, truth_costs, fingerprint)?;
         let runs = self.folder.runs()?;
-        let seed = self.loaded.settings.sampler.seed;
 
         let done_parts = [self.folder.count("reference"), self.folder.count("check")];
         let done = runs.iter().map(|run| self.cost_of(run, &costs)).sum::<f64>()
@@ -81,7 +82,7 @@ impl<'a> Bench<'a> {
             let mut mean = self.folder.mean(name)?;
             while mean.count() < parts {
                 steps.begin(format!("{name}, part {} of {parts}", mean.count() + 1));
-                let (image, _) = method.render(spp, seed + seeds + u64::from(mean.count()))?;
+                let (image, _) = method.render(spp, self.seed(seeds + u64::from(mean.count())))?;
                 self.folder.add(name, &mut mean, &image)?;
                 steps.done(cost.of(spp));
             }
@@ -119,21 +120,24 @@ impl<'a> Bench<'a> {
         Ok(Measured { reference, curves, biases, check, plan })
     }
 
-    /// Renders one picture with each method. Returns their costs and a checksum of version, threads, settings and pictures,
-    /// by which a plan is recognised. Methods that give the same bits as an earlier one with the same sampler are
+    /// The scene's seed plus an offset. Any number is a seed, so after the largest one comes 0.
+    pub fn seed(&self, offset: u64) -> u64 {
+        self.loaded.settings.sampler.seed.wrapping_add(offset)
+    }
+
+    /// Renders one picture with each method. Returns their costs and [`Plan::fingerprint`]. Methods that give the same bits as an earlier one with the same sampler are
     /// duplicates and removed.
     fn try_out(&mut self) -> Result<(Vec<Cost>, u32), Box<dyn Error>> {
         let (mut images, mut costs): (Vec<(SamplerSettings, Image)>, Vec<Cost>) =
             (Vec::new(), Vec::new());
-        let mut print = crc32fast::Hasher::new();
+        let mut fingerprint = crc32fast::Hasher::new();
         let mut kept: Vec<Method> = Vec::new();
-        let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        let threads = self.options.threads.map_or(threads, usize::from);
-        print.update(format!("{} {threads}", env!("CARGO_PKG_VERSION")).as_bytes());
+        let threads = self.threads;
+        fingerprint.update(format!("{} {threads}", env!("CARGO_PKG_VERSION")).as_bytes());
         let settings = std::mem::take(&mut self.settings);
         for (method, settings) in std::mem::take(&mut self.methods).into_iter().zip(settings) {
             let RenderSettings { sampler, ref integrator } = settings;
-            let (image, _) = method.render(4, self.loaded.settings.sampler.seed)?;
+            let (image, _) = method.render(4, self.seed(0))?;
             if let Some(same) =
                 images.iter().position(|known| known.0 == sampler && known.1 == image)
             {
@@ -146,11 +150,11 @@ impl<'a> Bench<'a> {
                 continue;
             }
             // The settings, too: a picture of few samples may not show all differences.
-            print.update(
+            fingerprint.update(
                 format!("{} {sampler:?} {}", method.name(), integrator.describe()).as_bytes(),
             );
             for band in image.pixels.iter().flat_map(|pixel| pixel.to_array()) {
-                print.update(&band.to_bits().to_le_bytes());
+                fingerprint.update(&band.to_bits().to_le_bytes());
             }
             costs.push(cost(&method)?);
             images.push((sampler, image));
@@ -158,7 +162,7 @@ impl<'a> Bench<'a> {
             kept.push(method);
         }
         self.methods = kept;
-        Ok((costs, print.finalize()))
+        Ok((costs, fingerprint.finalize()))
     }
 
     /// The methods for the reference and for its check: multiple importance sampling with Sobol points in one set, and
@@ -183,10 +187,10 @@ impl<'a> Bench<'a> {
         limits: &Limits,
         costs: &[Cost],
         truths: [Cost; 2],
-        print: u32,
+        fingerprint: u32,
     ) -> Result<Plan, Box<dyn Error>> {
         let Limits { budgets, seconds, seeds, reference, fresh } = limits;
-        let with = |budgets| Plan::new(budgets, *seeds, *reference, print);
+        let with = |budgets| Plan::new(budgets, *seeds, *reference, fingerprint);
         if !fresh && let Some(plan) = self.folder.plan()? {
             // Limits that the user did not give are taken from the stored plan.
             let budgets = if budgets.is_empty() { &plan.budgets } else { budgets };
@@ -224,7 +228,7 @@ impl<'a> Bench<'a> {
     ) -> Result<Vec<Run>, Box<dyn Error>> {
         for &spp in &plan.budgets {
             for run_index in 0..u64::from(plan.seeds) {
-                let seed = self.loaded.settings.sampler.seed + 1 + run_index;
+                let seed = self.seed(1 + run_index);
                 for (index, method) in self.methods.iter().enumerate() {
                     let is_known = |run: &Run| {
                         run.method == method.name() && run.spp == spp && run.seed == seed

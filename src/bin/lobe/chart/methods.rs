@@ -1,17 +1,14 @@
 //! The methods of a chart: the usual ones, or a list from a file.
 
-use std::error::Error;
-use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
 use lobe::integrator::Integrator;
 use lobe::light::LightStrategy;
-use lobe::params::Choice;
+use lobe::params::{Choice, Entry, Fault, Mark, Node, Value};
 use lobe::render::{RenderSettings, SamplerSettings};
 use lobe::sampling::SamplerKind;
-use lobe::scene_file::{SceneFileError, read_settings};
-use toml::de::{DeTable, DeValue};
+use lobe::scene_file::{Place, SceneFileError, read_document, read_settings};
 
 use crate::scene::SceneArguments;
 
@@ -60,68 +57,74 @@ pub fn with_changes(
     changed
 }
 
+/// What a list has to contain, for messages.
+const EXPECTED: &str = "expected a table [methods] with lines such as\n  \
+                        \"sobol, one set\" = ['sampler.type=\"sobol\"', 'sampler.replicates=1']";
+
+/// Something wrong in a list of methods.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+struct Wrong(String);
+
+fn wrong(mark: Mark, what: String) -> Fault {
+    Fault::new(mark, Wrong(what))
+}
+
 /// Reads methods from a TOML file: a table `[methods]`, in which each name has a list of overrides as for `--set`.
-pub fn read(path: &Path, scene: &SceneArguments) -> Result<Vec<Named>, Box<dyn Error>> {
-    let shown = path.display();
-    let text =
-        fs::read_to_string(path).map_err(|error| format!("cannot read `{shown}`: {error}"))?;
-    let table = DeTable::parse(&text).map_err(|error| {
-        let start = error.span().map_or(0, |span| span.start);
-        let line = 1 + text[..start].matches('\n').count();
-        format!("{shown}:{line}: {}", error.message())
-    })?;
-    let wrong = |what: &str| {
-        format!(
-            "{shown}: {what}; expected a table [methods] with lines such as\n  \
-             \"sobol, one set\" = ['sampler.type=\"sobol\"', 'sampler.replicates=1']"
-        )
-    };
-    let methods = match table.get_ref().iter().next() {
-        Some((key, value)) if key.get_ref() == "methods" && table.get_ref().len() == 1 => value,
-        Some((key, _)) => return Err(wrong(&format!("unknown table `{}`", key.get_ref())).into()),
-        None => return Err(wrong("it is empty").into()),
-    };
-    let DeValue::Table(methods) = methods.get_ref() else {
-        return Err(wrong("`methods` is not a table").into());
-    };
-    let mut all = Vec::new();
-    for (name, list) in methods {
-        let name = name.get_ref();
-        let DeValue::Array(list) = list.get_ref() else {
-            return Err(wrong(&format!("`{name}` is not a list")).into());
-        };
-        let text = |value: &toml::Spanned<DeValue>| match value.get_ref() {
-            DeValue::String(text) => Some(text.to_string()),
-            _ => None,
-        };
-        let own: Option<Vec<String>> = list.iter().map(text).collect();
-        let own = own.ok_or_else(|| {
-            wrong(&format!("the list of `{name}` has values that are not strings"))
-        })?;
-        let is_allowed =
-            |set: &&String| ["sampler.", "integrator."].iter().any(|p| set.starts_with(p));
-        if let Some(other) = own.iter().find(|set| !is_allowed(set)) {
-            let what = format!(
-                "`{name}` sets `{other}`, but methods can only set `sampler.` and `integrator.`"
-            );
-            return Err(wrong(&what).into());
+pub fn read(path: &Path, scene: &SceneArguments) -> Result<Vec<Named>, SceneFileError> {
+    // What is wrong without any method is no fault of the list.
+    read_settings(&scene.path, &scene.overrides())?;
+    read_document(path, |document| {
+        document.table("the list of methods", &["methods"])?.table("methods")?;
+        let methods = document.root.follow(&["methods"]);
+        if methods.entries().is_empty() {
+            return Err(wrong(methods.mark, format!("there are no methods; {EXPECTED}")));
         }
-        if name.chars().any(char::is_control) || name.len() > 80 {
-            return Err(
-                wrong(&format!("{name:?} is not a name of one line and at most 80 bytes")).into()
-            );
-        }
-        let is_planned =
-            |set: &&String| ["sampler.spp", "sampler.seed"].iter().any(|p| set.starts_with(p));
-        if let Some(other) = own.iter().find(is_planned) {
-            let what = format!("`{name}` sets `{other}`, which is chosen by --budgets and --seeds");
-            return Err(wrong(&what).into());
-        }
-        let mut overrides = scene.overrides();
-        overrides.extend(own.iter().map(String::as_str));
-        let settings = read_settings(&scene.path, &overrides)
-            .map_err(|error| format!("{shown}: method `{name}`: {error}"))?;
-        all.push((name.to_string(), settings));
+        methods.entries().iter().map(|entry| method(entry, scene)).collect()
+    })
+}
+
+fn method(entry: &Entry, scene: &SceneArguments) -> Result<Named, Fault> {
+    let Entry { key: name, mark, node } = entry;
+    if name.chars().any(char::is_control) || name.len() > 80 {
+        let what = format!("{name:?} is not a name of one line and at most 80 bytes");
+        return Err(wrong(*mark, what));
     }
-    if all.is_empty() { Err(wrong("[methods] is empty").into()) } else { Ok(all) }
+    let Value::Array(list) = &node.value else {
+        let what = format!("`{name}` is {}, expected a list of settings in quotes", node.value);
+        return Err(wrong(node.mark, what));
+    };
+    let own = list.iter().map(setting).collect::<Result<Vec<_>, _>>()?;
+    let mut overrides = scene.overrides();
+    overrides.extend(own);
+    let settings = read_settings(&scene.path, &overrides).map_err(|error| {
+        let is_at = |setting: &&Node| match (&error, &setting.value) {
+            (SceneFileError::Wrong { place: Place::Override { text }, .. }, Value::Text(own)) => {
+                text == own
+            }
+            _ => false,
+        };
+        let mark = list.iter().find(is_at).unwrap_or(node).mark;
+        wrong(mark, format!("method `{name}`: {error}"))
+    })?;
+    Ok((name.clone(), settings))
+}
+
+/// One override of a method's list.
+fn setting(node: &Node) -> Result<&str, Fault> {
+    let Value::Text(text) = &node.value else {
+        return Err(wrong(node.mark, format!("{} is not a setting in quotes", node.value)));
+    };
+    let begins_with = |keys: &[&str]| keys.iter().any(|key| text.starts_with(key));
+    if !begins_with(&["sampler.", "integrator."]) {
+        return Err(wrong(
+            node.mark,
+            format!("`{text}` is not a setting of a method: expected `sampler.` or `integrator.`"),
+        ));
+    }
+    if begins_with(&["sampler.spp", "sampler.seed"]) {
+        let what = format!("`{text}` has no effect: it is chosen by --budgets and --seeds");
+        return Err(wrong(node.mark, what));
+    }
+    Ok(text)
 }

@@ -11,8 +11,8 @@ mod steps;
 
 use std::error::Error;
 use std::ffi::OsString;
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{ArgGroup, Args, value_parser};
 use lobe::image::{Encoding, Image};
@@ -20,6 +20,7 @@ use lobe::metrics::Errors;
 use lobe::metrics::convergence::{Method, Other};
 use lobe::{RenderOptions, Spectrum};
 
+use crate::arguments::{ThreadsArgument, seconds};
 use crate::scene::SceneArguments;
 use folder::Folder;
 use measure::Bench;
@@ -40,6 +41,10 @@ Errors are the square root of relMSE, the mean of (a - b)² / (b² + 0.01), agai
 reference's own error is subtracted and drawn as a floor. An interrupted chart resumes with its plan. A finished
 chart is only drawn again, after a short trial of each method; --fresh starts again."#;
 
+/// Arguments without effect on `--stability`, which they conflict with.
+const OF_SCENES: [&str; 9] =
+    ["set", "methods", "time", "budgets", "seeds", "reference", "add", "fresh", "threads"];
+
 /// Charts error against time and samples for each method to render a scene: SVG, CSV and an HTML page
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
@@ -50,11 +55,12 @@ pub struct Arguments {
 
     /// Charts numerical failures in place of a scene: ray origins, edges, lights, sums and so on, each with
     /// the common method beside ours. Exits with code 1 if ours exceeds a stored bound
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = OF_SCENES)]
     stability: bool,
 
     /// With --stability: factor on the number of trials
-    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = seconds)]
+    // Not `requires`: clap lets that pass where the required argument conflicts with one that is present.
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = factor, conflicts_with = "path")]
     effort: f64,
 
     /// The folder to write to [default: NAME-chart for NAME.toml, or stability-chart]
@@ -66,8 +72,8 @@ pub struct Arguments {
     methods: Option<PathBuf>,
 
     /// Approximate total time, which determines the largest number of samples
-    #[arg(long, value_name = "SECONDS", default_value_t = 300.0, value_parser = seconds)]
-    time: f64,
+    #[arg(long, value_name = "SECONDS", default_value = "300", value_parser = seconds)]
+    time: Duration,
 
     /// Numbers of samples per pixel, in place of the powers of two that fit into --time
     #[arg(long, value_name = "N,...", value_delimiter = ',', value_parser = value_parser!(u32).range(1..1 << 24))]
@@ -89,9 +95,8 @@ pub struct Arguments {
     #[arg(long)]
     fresh: bool,
 
-    /// Number of threads, up to 1024 [default: one per processor]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: ThreadsArgument,
 
     /// Prints nothing but errors
     #[arg(short, long)]
@@ -106,9 +111,9 @@ struct Added {
     seconds: f64,
 }
 
-fn seconds(text: &str) -> Result<f64, String> {
-    let seconds = text.parse().ok().filter(|s: &f64| s.is_finite() && *s > 0.0);
-    seconds.ok_or("expected a number of seconds above 0".into())
+fn factor(text: &str) -> Result<f64, String> {
+    let factor = text.parse().ok().filter(|f: &f64| f.is_finite() && *f > 0.0);
+    factor.ok_or("expected a number above 0".into())
 }
 
 fn added(text: &str) -> Result<Added, String> {
@@ -116,7 +121,7 @@ fn added(text: &str) -> Result<Added, String> {
         let (label, rest) = text.split_once('=')?;
         let (path, time) = rest.rsplit_once(',')?;
         let is_empty = label.is_empty() || path.is_empty();
-        (!is_empty).then_some((label.into(), path.into(), seconds(time).ok()?))
+        (!is_empty).then_some((label.into(), path.into(), seconds(time).ok()?.as_secs_f64()))
     };
     let (label, path, seconds) =
         parts().ok_or("expected LABEL=IMAGE,SECONDS such as Mitsuba=other.exr,5.6")?;
@@ -150,10 +155,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     }
     let folder = Folder::open(&folder)?;
 
-    let options = RenderOptions {
-        threads: arguments.threads.and_then(|threads| NonZeroUsize::new(threads.into())),
-        ..RenderOptions::default()
-    };
+    let options = RenderOptions { threads: arguments.threads.given(), ..RenderOptions::default() };
     let method = |(name, settings): &methods::Named| {
         Method::of_settings(&loaded.scene, &loaded.view, name, settings.clone(), options)
     };
@@ -164,6 +166,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         settings: named.iter().map(|(_, settings)| settings.clone()).collect(),
         notes: Vec::new(),
         options,
+        threads: arguments.threads.count(),
         folder,
         is_quiet: arguments.quiet,
     };
@@ -172,7 +175,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     budgets.dedup();
     let limits = measure::Limits {
         budgets,
-        seconds: arguments.time,
+        seconds: arguments.time.as_secs_f64(),
         seeds: *seeds,
         reference: arguments.reference,
         fresh: *fresh,

@@ -57,7 +57,7 @@ pub fn html(
         size.x,
         size.y,
         bench.loaded.scene.accel().triangle_count(),
-        threads(bench),
+        bench.threads,
         plan.seeds,
         f64::from(Plan::PARTS) * f64::from(plan.part_spp),
         study.reference.floor()
@@ -75,11 +75,6 @@ pub fn html(
     Ok(page)
 }
 
-fn threads(bench: &Bench) -> usize {
-    let all = || std::thread::available_parallelism().map_or(1, usize::from);
-    bench.options.threads.map_or_else(all, usize::from)
-}
-
 /// For each method, a picture after the same time and its signed error, cropped to where the methods are worst.
 fn pictures(page: &mut String, bench: &Bench, study: &Study) -> Result<(), Box<dyn Error>> {
     let reference = study.reference.image();
@@ -87,8 +82,7 @@ fn pictures(page: &mut String, bench: &Bench, study: &Study) -> Result<(), Box<d
     let mut shots = Vec::new();
     for (method, curve) in bench.methods.iter().zip(&study.curves) {
         let spp = samples_in(curve, time);
-        let (image, [set_up, seconds]) =
-            method.render(spp, bench.loaded.settings.sampler.seed + 1)?;
+        let (image, [set_up, seconds]) = method.render(spp, bench.seed(1))?;
         let errors = Errors::between(&image, reference)?;
         let (flip, _) = ErrorMap::flip(&image, reference, Viewing::default())?;
         shots.push((method.name(), spp, set_up + seconds, image, errors, flip.mean()));

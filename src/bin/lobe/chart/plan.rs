@@ -30,8 +30,9 @@ pub struct Plan {
     pub seeds: u32,
     /// Samples per pixel of each part of the reference.
     pub part_spp: u32,
-    /// Checksum of scene and methods.
-    pub print: u32,
+    /// CRC-32 of the version, the number of threads, and each method's name, settings and trial picture. `None` for plans of
+    /// versions that had another one: they equal no new plan.
+    pub fingerprint: Option<u32>,
 }
 
 impl Plan {
@@ -44,11 +45,11 @@ impl Plan {
     pub const CHECK_PARTS: u32 = 4;
 
     /// A plan with `reference` samples per pixel in all parts of the reference together, or the default.
-    pub fn new(budgets: Vec<u32>, seeds: u32, reference: Option<u32>, print: u32) -> Self {
+    pub fn new(budgets: Vec<u32>, seeds: u32, reference: Option<u32>, fingerprint: u32) -> Self {
         let most = budgets.last().copied().unwrap_or(1);
         let usual = || Self::PART_SPP.saturating_mul(most);
         let part_spp = reference.map_or_else(usual, |spp| spp.div_ceil(Self::PARTS));
-        Self { budgets, seeds, part_spp, print }
+        Self { budgets, seeds, part_spp, fingerprint: Some(fingerprint) }
     }
 
     /// A plan with as many powers of two as budgets as the time allows, at least 1, 2 and 4.
@@ -78,10 +79,11 @@ impl Plan {
 
     /// The plan as TOML, for its file.
     pub fn to_toml(&self) -> String {
-        let Self { budgets, seeds, part_spp, print } = self;
+        let Self { budgets, seeds, part_spp, fingerprint } = self;
+        let fingerprint = fingerprint.map_or(String::new(), |sum| format!("fingerprint = {sum}\n"));
         format!(
             "# What `lobe chart` renders here.\n\
-             budgets = {budgets:?}\nseeds = {seeds}\npart_spp = {part_spp}\nprint = {print}\n"
+             budgets = {budgets:?}\nseeds = {seeds}\npart_spp = {part_spp}\n{fingerprint}"
         )
     }
 
@@ -96,7 +98,10 @@ impl Plan {
             budgets: budgets?,
             seeds: value("seeds")?.parse().ok()?,
             part_spp: value("part_spp")?.parse().ok()?,
-            print: value("print")?.parse().ok()?,
+            fingerprint: match value("fingerprint") {
+                Some(sum) => Some(sum.parse().ok()?),
+                None => None,
+            },
         };
         plan.budgets.is_sorted_by(|a, b| a < b).then_some(plan)
     }

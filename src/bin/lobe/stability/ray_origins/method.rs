@@ -39,7 +39,7 @@ impl Method {
     }
 }
 
-/// One coordinate of the moved origin, with the constants of the chapter.
+/// One coordinate of the moved origin, with the constants of Waechter and Binder 2019.
 fn waechter_binder(p: f32, n: f32) -> f32 {
     const ORIGIN: f32 = 1.0 / 32.0;
     const FLOAT_SCALE: f32 = 1.0 / 65536.0;
