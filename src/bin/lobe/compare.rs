@@ -19,7 +19,9 @@ relMSE is the mean of (a - b)² / (b² + 0.01), where b is the reference. The pe
 1 for PNG files and the reference's largest value for radiance. FLIP is the perceived
 difference when flipping between both images, 0.7 m in front of a 4K screen 0.7 m wide; for
 radiance it is the maximum over several exposures. The Z-test uses the variance layers of
-both files, which are too low where few samples agree by chance.";
+both files. It needs good estimates of the variance: from independent samples, or from 16 sets
+of others (--set sampler.replicates=16). With the default of 2 sets it fails where both agree
+by chance.";
 
 /// Compares an image with a reference: MSE, MAE, relMSE, PSNR, FLIP, and whether noise explains the difference
 #[derive(Args)]
@@ -125,6 +127,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         summary.add("z-failed", format!("{failed} above {limit:.2} standard errors"));
         summary.add("z-largest", format!("{largest:.2} at ({}, {})", at.x, at.y));
         summary.add("z-square", format!("{mean_square:.4} mean of z^2; noise alone gives 1"));
+        if failed > 0 {
+            let note = "what fails may be a poor estimate of the variance: see lobe compare --help";
+            summary.add("z-note", note);
+        }
     }
     if let Some(prefix) = &arguments.maps {
         let absolute = ErrorMap::absolute(&image, &reference)?;
