@@ -137,3 +137,20 @@ fn highlight_is_the_blinn_phong_factor() {
     let color = picture(floor(-2.0, 6.0), camera, LIGHT, true);
     compare(&color, &camera, LIGHT, 32.0 * TOLERANCE, blinn_phong);
 }
+
+/// What lobes get wrong is counted here too. Caught: the count left out.
+#[test]
+fn invalid_reflectances_are_counted() {
+    let scene = Scene::builder()
+        .material("broken", MatteMaterial::new([f32::INFINITY; 3]))
+        .shape("floor", floor(-2.0, 6.0), "broken")
+        .light(PointLight::new(LIGHT.as_vec3(), Spectrum::WHITE))
+        .build()
+        .unwrap();
+    let (view, sampling) = (view(&chapter_camera(), RESOLUTION), Sampling::new(&Middle, 1));
+    let options = RenderOptions::default();
+    let integrator = ChapterIntegrator::default();
+    let rendered = render_with(&scene, &view, &integrator, sampling, &options).unwrap();
+    assert!(rendered.counters.rejected > 1000);
+    assert!(rendered.picture.color.iter().all(|color| color.is_black()));
+}

@@ -316,6 +316,10 @@ fn unknown_keys() {
 #[test]
 fn missing_keys() {
     all_refused(&[
+        (
+            "[material.\"\"]\nkd = [0, 0, 0]",
+            "s.toml:1:1: [material.\"\"] lacks `type`, expected \"matte\"",
+        ),
         ("[texture.t]", "s.toml:1:1: [texture.t] lacks `type`, expected \"constant\""),
         (
             "\n[texture.t]\ntype = \"constant\"",
