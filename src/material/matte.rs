@@ -88,8 +88,10 @@ const SIGMA: TextureKey<f32> = TextureKey::of(
         .range(0.0..=90.0)
         .default(0.0),
 );
-const BUMP: TextureKey<Option<f32>> =
-    TextureKey::of(Key::optional("bump", "displacement along the normal, in scene units"));
+const BUMP: TextureKey<Option<f32>> = TextureKey::of(Key::optional(
+    "bump",
+    "displacement along the normal, in scene units; a constant tilts nothing",
+));
 
 /// `type = "matte"`
 pub(super) const KIND: Kind<Read> = Kind {
