@@ -1,16 +1,20 @@
 //! Lights of another crate.
 
-use std::sync::Arc;
+use std::collections::HashSet;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
 
 use lobe::geometry::BoundedPoint;
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::integrator::PathIntegrator;
-use lobe::light::{BoundingSphere, Light, LightHit, LightSample, LightStrategy, PointLight};
+use lobe::light::{
+    BoundingSphere, Light, LightHit, LightSample, LightStrategy, PointLight, SkyLight,
+};
 use lobe::sampling::uniform_triangle;
 use lobe::scene::{Emission, SceneBuilder, SceneError};
 use lobe::{RenderOptions, Scene, Spectrum, TriangleMesh, render};
 
-use crate::scenes::{ball_over_floor, chapter_view, independent};
+use crate::scenes::{ball_over_floor, chapter_view, independent, lumpy_ball};
 use crate::statistics::{assert_alike, bands, picture};
 
 /// A point light that returns the given power, which may be unknown.
@@ -146,5 +150,61 @@ fn emission_is_checked() {
             Err(SceneError::Emission { shape, .. }) => assert!(!good && shape == "panel"),
             Err(error) => panic!("{error}"),
         }
+    }
+}
+
+/// Remembers the points that it was sampled for, and how often it was asked for the density from another point.
+struct Remembers {
+    is_sky: bool,
+    sampled: Arc<Mutex<HashSet<[u32; 3]>>>,
+    densities: Arc<[AtomicU64; 2]>,
+}
+
+impl Light for Remembers {
+    fn is_delta(&self) -> bool {
+        false
+    }
+    fn is_infinite(&self) -> bool {
+        self.is_sky
+    }
+    fn sample_li(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
+        self.sampled.lock().unwrap().insert(p.to_array().map(f32::to_bits));
+        if self.is_sky { SkyLight::new(RADIANCE).sample_li(p, u) } else { Panel.sample_li(p, u) }
+    }
+    fn pdf_li(&self, hit: &LightHit) -> f32 {
+        let origin = hit.origin.to_array().map(f32::to_bits);
+        let is_known = self.sampled.lock().unwrap().contains(&origin);
+        self.densities[usize::from(is_known)].fetch_add(1, Ordering::Relaxed);
+        if self.is_sky { SkyLight::new(RADIANCE).pdf_li(hit) } else { Panel.pdf_li(hit) }
+    }
+    fn le(&self, _hit: &LightHit) -> Spectrum {
+        RADIANCE
+    }
+}
+
+/// Samples and densities are for the same points: those of surfaces, not the origins that rays are moved to. Caught: the
+/// origin of the ray, for lamps and for lights around the scene.
+#[test]
+fn densities_are_asked_for_the_points_of_samples() {
+    for (is_sky, is_smooth) in [(false, false), (false, true), (true, false), (true, true)] {
+        let (sampled, densities) = (Arc::default(), Arc::<[AtomicU64; 2]>::default());
+        let light =
+            Remembers { is_sky, sampled: Arc::clone(&sampled), densities: Arc::clone(&densities) };
+        let mut ball = lumpy_ball(24);
+        if is_smooth {
+            ball.normals = ball.positions.iter().map(|p| p.normalize()).collect();
+        }
+        let scene = ball_over_floor().shape("ball", ball, "red");
+        let scene = match is_sky {
+            true => scene.light(light),
+            false => scene.shape_with_light("panel", panel(), None, light),
+        };
+        let settings = independent(16, PathIntegrator::new(3));
+        let view = chapter_view(UVec2::splat(24));
+        render(&scene.build().unwrap(), &view, &settings, &RenderOptions::default()).unwrap();
+        let [unknown, known] = [0, 1].map(|i: usize| densities[i].load(Ordering::Relaxed));
+        let what = format!("sky {is_sky}, smooth {is_smooth}");
+        assert_eq!(unknown, 0, "{what}: of {known}");
+        assert!(known > 100, "{what}: {known}");
     }
 }
