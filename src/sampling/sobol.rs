@@ -146,7 +146,7 @@ struct Block {
 }
 
 impl Block {
-    #[inline]
+    #[inline(never)]
     fn new(sampler: &SobolSampler, id: SampleId, dimension: u32) -> Self {
         let first = SampleId { index: id.index & !(BLOCK - 1), ..id };
         let (couple, half) = couple(dimension);
@@ -163,7 +163,7 @@ impl Block {
     }
 
     /// The block of `id`: the cached one if it holds `id`, otherwise a new one, which replaces it.
-    #[inline]
+    #[inline(always)]
     fn cached<'a>(
         cache: &'a mut Option<Self>,
         sampler: &SobolSampler,
@@ -199,7 +199,7 @@ struct Lanes {
 }
 
 impl Lanes {
-    #[inline]
+    #[inline(never)]
     fn scrambled(&self) -> [Vec2; LANES] {
         let (mut x, mut y) = ([0_u32; LANES], [0_u32; LANES]);
         for i in 0..LANES {
