@@ -135,11 +135,11 @@ impl View {
         // The previous contents are overwritten.
         rays.resize(ids.len(), Ray::new(Vec3::ZERO, Vec3::Z));
         let (mut rays, mut offsets, mut lens) = (&mut rays[..], &*film, lens);
-        for of_set in SampleId::sets(ids) {
-            let (rays_of_set, rays_left) = rays.split_at_mut(of_set.len());
-            let (offsets_of_set, offsets_left) = offsets.split_at(of_set.len());
-            let (lens_of_set, lens_left) = lens.split_at(of_set.len());
-            self.camera.generate_rays(of_set[0].pixel, offsets_of_set, lens_of_set, rays_of_set);
+        for run in SampleId::pixels(ids) {
+            let (rays_of_run, rays_left) = rays.split_at_mut(run.len());
+            let (offsets_of_run, offsets_left) = offsets.split_at(run.len());
+            let (lens_of_run, lens_left) = lens.split_at(run.len());
+            self.camera.generate_rays(run[0].pixel, offsets_of_run, lens_of_run, rays_of_run);
             (rays, offsets, lens) = (rays_left, offsets_left, lens_left);
         }
     }
