@@ -185,7 +185,7 @@ impl<'a> Bsdf<'a> {
         let (world, local) = ([wo, sample.wi], [local_wo, local_wi]);
         if sample.is_specular() {
             sample.pdf *= shares.of(chosen);
-        } else if shares.count() > 1 {
+        } else if let Shares::Each(_) = shares {
             sample.pdf = self.mean_pdf(&shares, local, flags);
             sample.f = self.sum(world, local, flags);
         } else if !kind.intersects(self.side(world, local)) {
@@ -301,14 +301,11 @@ impl<'a> Bsdf<'a> {
     /// Selection probability of each lobe that matches `flags`, for a local direction.
     #[inline]
     fn shares(&self, wo: Vec3, flags: BxdfFlags) -> Shares {
-        match self.num_components(flags) {
-            0 => Shares(ArrayVec::new_const()),
-            1 => Shares([1.0].into_iter().collect()),
-            _ => {
-                let estimates = self.matching(flags).map(|(lobe, _)| lobe.albedo_estimate(wo));
-                Shares::new(estimates.collect())
-            }
+        if self.num_components(flags) < 2 {
+            return Shares::All;
         }
+        let estimates = self.matching(flags).map(|(lobe, _)| lobe.albedo_estimate(wo));
+        Shares::new(estimates.collect())
     }
 
     /// The lobes that match `flags`, each with its own flags.
@@ -346,8 +343,13 @@ impl<'a> Bsdf<'a> {
 
 const SIDES: BxdfFlags = BxdfFlags::REFLECTION.union(BxdfFlags::TRANSMISSION);
 
-/// Selection probability of each lobe: at least [`EQUAL_PART`] of a uniform probability.
-struct Shares(ArrayVec<f32, MAX_LOBES>);
+/// Selection probability of each lobe.
+enum Shares {
+    /// There is at most one lobe, which is always selected.
+    All,
+    /// Of two or more lobes: at least [`EQUAL_PART`] of a uniform probability.
+    Each(ArrayVec<f32, MAX_LOBES>),
+}
 
 impl Shares {
     /// Probabilities of two or more lobes, proportional to their estimates except for [`EQUAL_PART`].
@@ -363,28 +365,21 @@ impl Shares {
             let share = if sum > 0.0 { *estimate / sum } else { equal };
             *estimate = EQUAL_PART * equal + (1.0 - EQUAL_PART) * share;
         }
-        Self(estimates)
-    }
-
-    #[inline]
-    fn count(&self) -> usize {
-        self.0.len()
+        Self::Each(estimates)
     }
 
     #[inline]
     fn of(&self, lobe: usize) -> f32 {
-        self.0[lobe]
+        if let Self::Each(shares) = self { shares[lobe] } else { 1.0 }
     }
 
     /// The lobe that `uc` selects, and the remainder of `uc`, rescaled to `[0, 1)`.
     #[inline]
     fn choose(&self, uc: f32) -> (usize, f32) {
-        if self.count() < 2 {
-            return (0, uc);
-        }
+        let Self::Each(shares) = self else { return (0, uc) };
         let mut start = 0.0;
-        for (lobe, share) in self.0.iter().enumerate() {
-            if uc < start + share || lobe + 1 == self.count() {
+        for (lobe, share) in shares.iter().enumerate() {
+            if uc < start + share || lobe + 1 == shares.len() {
                 return (lobe, ((uc - start) / share).clamp(0.0, ONE_MINUS_EPSILON));
             }
             start += share;
