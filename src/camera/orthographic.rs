@@ -6,8 +6,8 @@ use glam::{UVec2, Vec2, Vec3};
 
 use super::error::CameraError;
 use super::placement::{
-    Axes, EYE, FOCAL_DISTANCE, HANDEDNESS, Handedness, LARGEST, LENS_RADIUS, LOOK_AT, UP,
-    check_lens, check_resolution, fault,
+    Axes, EYE, FOCAL_DISTANCE, HANDEDNESS, Handedness, LENS_RADIUS, LOOK_AT, MAX_COORDINATE_F64,
+    UP, check_lens, check_resolution, fault,
 };
 use super::traits::{Camera, Read};
 use crate::geometry::Ray;
@@ -134,7 +134,7 @@ impl Camera for OrthographicCamera {
 
 const EXTENT: Key<f32> = Key::new("extent", "scene units across the shorter side of the image")
     .above(0.0)
-    .at_most(LARGEST)
+    .at_most(MAX_COORDINATE_F64)
     .default(2.0);
 
 /// `type = "orthographic"`

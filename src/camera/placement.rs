@@ -25,13 +25,14 @@ impl Choice for Handedness {
 }
 
 /// [`MAX_COORDINATE`] as the decimal that it was rounded from.
-pub(super) const LARGEST: f64 = 1e12;
-const _: () = assert!(LARGEST as f32 == MAX_COORDINATE);
+pub(super) const MAX_COORDINATE_F64: f64 = 1e12;
+const _: () = assert!(MAX_COORDINATE_F64 as f32 == MAX_COORDINATE);
 
-pub(super) const EYE: Key<Vec3> =
-    Key::new("eye", "where it stands").range(-LARGEST..=LARGEST).default(Vec3::ZERO);
+pub(super) const EYE: Key<Vec3> = Key::new("eye", "where it stands")
+    .range(-MAX_COORDINATE_F64..=MAX_COORDINATE_F64)
+    .default(Vec3::ZERO);
 pub(super) const LOOK_AT: Key<Vec3> = Key::new("look_at", "a point in the middle of the image")
-    .range(-LARGEST..=LARGEST)
+    .range(-MAX_COORDINATE_F64..=MAX_COORDINATE_F64)
     .default(Vec3::Z);
 pub(super) const UP: Key<Vec3> =
     Key::new("up", "a direction that is up in the image").default(Vec3::Y);
@@ -42,7 +43,7 @@ pub(super) const HANDEDNESS: Key<Handedness> = Key::new(
 .default(Handedness::Left);
 pub(super) const LENS_RADIUS: Key<f32> =
     Key::new("lens_radius", "radius of the lens, in scene units; 0 for a pinhole")
-        .range(0.0..=LARGEST)
+        .range(0.0..=MAX_COORDINATE_F64)
         .default(0.0);
 pub(super) const FOCAL_DISTANCE: Key<f32> =
     Key::new("focal_distance", "distance of the plane in focus, in scene units; for a lens")

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{UVec2, Vec2, Vec3, Vec4};
+use glam::{UVec2, Vec2, Vec3};
 
 use crate::geometry::Ray;
 use crate::geometry::float::MAX_COORDINATE;
@@ -74,16 +74,7 @@ impl<C: Camera + ?Sized> Camera for Arc<C> {
 /// rules of [`Camera`].
 #[inline]
 pub(crate) fn prepare(ray: &mut Ray) -> bool {
-    let is_unit = (ray.d.length_squared() - 1.0).abs() <= UNIT_TOLERANCE;
-    // Origin and t_min by one comparison, which is false for NaN.
-    let start = Vec4::new(ray.o.x, ray.o.y, ray.o.z, ray.t_min);
-    let in_range = start.abs().cmple(Vec4::splat(MAX_COORDINATE)).all();
-    (is_unit && in_range && !ray.t_max.is_nan()) || prepare_unusual(ray)
-}
-
-/// [`prepare`] for any ray.
-#[cold]
-fn prepare_unusual(ray: &mut Ray) -> bool {
+    // A comparison with NaN is false.
     let in_range = ray.o.abs().cmple(Vec3::splat(MAX_COORDINATE)).all()
         && !ray.t_min.is_nan()
         && !ray.t_max.is_nan();
@@ -94,6 +85,7 @@ fn prepare_unusual(ray: &mut Ray) -> bool {
 /// Tolerance on the squared length of a unit direction: several times the rounding error of normalizing in f32.
 const UNIT_TOLERANCE: f32 = 4e-6;
 
+#[cold]
 fn normalize(ray: &mut Ray) -> bool {
     // In f64, where no square of a float overflows or vanishes.
     let Some(d) = ray.d.as_dvec3().try_normalize() else { return false };

@@ -26,7 +26,8 @@ pub fn check_writable(path: impl AsRef<Path>) -> Result<(), WriteError> {
 
 /// Writes a file whole or not at all: the contents go to a temporary file in the same folder, which is flushed to the
 /// disk and then renamed to `path`. A file that was there before stays whole until then, and for good when anything
-/// fails. Symbolic links to files are followed (one that leads nowhere is replaced), and the permissions of an existing file are kept.
+/// fails. Symbolic links to files are followed (one that leads nowhere is replaced), and the permissions of an existing
+/// file are kept.
 ///
 /// If the process is killed while it writes, a hidden file `.lobe-*.tmp` may remain in the folder.
 ///

@@ -94,7 +94,7 @@ const HIGHLIGHT: Key<bool> =
 /// `type = "chapter"`
 pub(super) const KIND: Kind<Read> = Kind {
     name: "chapter",
-    meaning: "The sum of pdf f 3 over the directions to all lights: a brightness without shadows, falloff and intensity",
+    meaning: "A brightness without shadows, falloff and intensity: 3 pdf f, summed over the lights",
     keys: &[&HIGHLIGHT],
     read,
 };

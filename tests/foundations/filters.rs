@@ -10,6 +10,7 @@ use lobe::glam::Vec2;
 
 use crate::common::Rng;
 use crate::common::stats::{assert_fits, assert_mean, mean};
+use crate::scenes::Parabola;
 
 /// A filter with its truth.
 struct Case {
@@ -47,21 +48,6 @@ fn blackman_harris(filter: BlackmanHarrisFilter) -> Case {
         let w = PI * x / f64::from(filter.radius);
         0.35875 + 0.48829 * w.cos() + 0.14128 * (2.0 * w).cos() + 0.01168 * (3.0 * w).cos()
     })
-}
-
-/// A filter of another crate, which has only what it must have: 1 - (x / 2)², the kernel of Epanechnikov.
-#[derive(Debug)]
-struct Parabola;
-
-impl Filter for Parabola {
-    fn radius(&self) -> f32 {
-        2.0
-    }
-
-    fn profile(&self, x: f64) -> f64 {
-        assert!((0.0..=2.0).contains(&x), "asked at {x}");
-        1.0 - 0.25 * x * x
-    }
 }
 
 /// Wide, narrow and extreme shapes, and a filter of another crate.

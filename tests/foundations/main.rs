@@ -5,6 +5,8 @@
 //! the code it was seen to catch.
 
 mod common;
+#[path = "../scenes/mod.rs"]
+mod scenes;
 
 mod bxdf;
 mod energy;

@@ -1,8 +1,9 @@
-//! Scenes and samplers shared by several tests.
+//! Scenes, samplers and a filter shared by several tests.
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 
 use std::sync::Arc;
 
+use lobe::film::Filter;
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::integrator::Integrator;
 use lobe::render::{RenderSettings, SamplerSettings};
@@ -110,4 +111,19 @@ pub fn ball_over_floor() -> SceneBuilder {
         .material("blue", MatteMaterial::new([0.2, 0.3, 0.9]))
         .shape("ball", lumpy_ball(24), "red")
         .shape("floor", floor(-2.0, 6.0), "blue")
+}
+
+/// A filter of another crate, which has only what it must have: 1 - (x / 2)², the kernel of Epanechnikov.
+#[derive(Debug)]
+pub struct Parabola;
+
+impl Filter for Parabola {
+    fn radius(&self) -> f32 {
+        2.0
+    }
+
+    fn profile(&self, x: f64) -> f64 {
+        assert!((0.0..=2.0).contains(&x), "asked at {x}");
+        1.0 - 0.25 * x * x
+    }
 }

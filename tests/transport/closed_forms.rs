@@ -16,7 +16,7 @@ use lobe::{
     TriangleMesh, View,
 };
 
-use crate::scenes::{ball, floor, view};
+use crate::scenes::{Parabola, ball, floor, view};
 use crate::statistics::{assert_mean, bands, picture};
 
 const STRATEGIES: [LightStrategy; 4] =
@@ -121,20 +121,6 @@ fn a_furnace_adds_up_all_reflections() {
         let expected = e * (1.0 - f64::powi(a, reflections)) / (1.0 - a);
         let what = format!("{strategy:?}, depth {max_depth}, roulette {roulette}");
         assert_mean(&picture, expected, &what);
-    }
-}
-
-/// A filter of another crate: 1 - (x / 2)².
-#[derive(Debug)]
-struct Parabola;
-
-impl Filter for Parabola {
-    fn radius(&self) -> f32 {
-        2.0
-    }
-
-    fn profile(&self, x: f64) -> f64 {
-        1.0 - 0.25 * x * x
     }
 }
 

@@ -128,26 +128,25 @@ struct Cell {
 
 impl Table {
     fn new(extent: f32, profile: impl Fn(f64) -> f64) -> Result<Self, FilterError> {
-        let place = |i: usize| f64::from(extent) * i as f64 / CELLS as f64;
-        let knots: [f64; CELLS + 1] = std::array::from_fn(|i| profile(place(i)));
+        let distance = |i: usize| f64::from(extent) * i as f64 / CELLS as f64;
+        let knots: [f64; CELLS + 1] = std::array::from_fn(|i| profile(distance(i)));
         // Never negative, never rising, and finite in f32.
         let mut last = f64::from(f32::MAX);
         for (i, value) in knots.into_iter().enumerate() {
             if !(0.0..=last).contains(&value) || value == 0.0 && i == 0 {
-                return Err(FilterError::Profile { x: place(i), value });
+                return Err(FilterError::Profile { x: distance(i), value });
             }
             last = value;
         }
-        let knot = |i: usize| knots[i];
-        let area = |i: usize| 0.5 * (knot(i) + knot(i + 1));
+        let area = |i: usize| 0.5 * (knots[i] + knots[i + 1]);
         let total: f64 = (0..CELLS).map(area).sum();
         let mut before = 0.0;
         let cells = std::array::from_fn(|i| {
             if i == CELLS {
                 return Cell { before: f32::INFINITY, square: 0.0, density: 0.0, slope: 0.0 };
             }
-            let density = (knot(i) / total) as f32;
-            let slope = (2.0 * (knot(i + 1) - knot(i)) / total) as f32;
+            let density = (knots[i] / total) as f32;
+            let slope = (2.0 * (knots[i + 1] - knots[i]) / total) as f32;
             let cell = Cell { before: before as f32, square: density * density, density, slope };
             before += area(i) / total;
             cell

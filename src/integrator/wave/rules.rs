@@ -112,6 +112,7 @@ impl PathRules {
     pub fn emitted(&self, scene: &Scene, index: usize, at: &LightHit, path: &Path) -> Spectrum {
         let light = &*scene.lights()[index];
         let le = light.le(at);
+        // A light that emits nothing towards the ray needs no density.
         if le.is_black() {
             return Spectrum::BLACK;
         }
