@@ -15,7 +15,7 @@ use lobe::integrator::{DirectIntegrator, Estimator, Integrator, PathIntegrator, 
 use lobe::interaction::{Shading, SurfaceInteraction};
 use lobe::light::{BoundingSphere, Light, LightSample, SkyLight};
 use lobe::material::Material;
-use lobe::render::{RenderError, Rendered, Sampling, SettingsError, render_with};
+use lobe::render::{RenderError, Rendered, SamplerSettings, Sampling, SettingsError, render_with};
 use lobe::sampling::{IndependentSampler, Sampler, SamplerKind};
 use lobe::scene::SceneBuilder;
 use lobe::texture::Texture;
@@ -473,4 +473,15 @@ fn pixels_whose_samples_are_all_left_out_are_empty() {
     assert_eq!((rendered.empty_pixels, rendered.non_finite), (15, 60));
     assert_eq!(rendered.picture.color[0], Spectrum::BLACK);
     assert_eq!(rendered.picture.color[1], Spectrum::WHITE);
+}
+
+/// Samples are divided into as many sets as were asked for, up to 1024 of equal size. Seen to fail without that limit.
+#[test]
+fn sets_are_equal_and_limited() {
+    let of = |kind, spp, replicates| SamplerSettings { kind, spp, seed: 0, replicates }.sets();
+    assert_eq!(of(SamplerKind::SOBOL, 4096, 4096), SamplerSettings::MAX_SETS);
+    assert_eq!(of(SamplerKind::SOBOL, 12, 5), 4);
+    assert_eq!(of(SamplerKind::SOBOL, 7, 2), 1);
+    assert_eq!(of(SamplerKind::SOBOL, 8, 0), 1);
+    assert_eq!(of(SamplerKind::INDEPENDENT, 8, 4), 1);
 }

@@ -234,8 +234,8 @@ pub trait Light: Send + Sync {
     fn sample_li(&self, p: Vec3, u: Vec2) -> Option<LightSample>;
 
     /// Density over solid angle with which `sample_li` at `hit.origin` returns `hit.wi`; 0 if it cannot. By default
-    /// NaN, since a delta light is never hit: a light that emits towards rays ([`le`](Light::le)) without this method
-    /// gives samples that are not finite, which are left out and counted, and does not count twice in silence.
+    /// NaN, since a delta light is never hit: a light that rays hit and that lacks this method gives samples that are
+    /// not finite, which are left out and counted, and does not count twice in silence.
     fn pdf_li(&self, _hit: &LightHit) -> f32 {
         f32::NAN
     }

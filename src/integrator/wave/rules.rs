@@ -111,11 +111,6 @@ impl PathRules {
     #[inline]
     pub fn emitted(&self, scene: &Scene, index: usize, at: &LightHit, path: &Path) -> Spectrum {
         let light = &*scene.lights()[index];
-        let le = light.le(at);
-        // A light that emits nothing towards the ray needs no density.
-        if le.is_black() {
-            return Spectrum::BLACK;
-        }
         let probability = self.lights.probability(index);
         // Light sampling cannot find paths from the camera or from delta events.
         let weight = if path.pdf == f32::INFINITY || probability == 0.0 {
@@ -125,7 +120,7 @@ impl PathRules {
         } else {
             return Spectrum::BLACK;
         };
-        path.beta * le * weight
+        path.beta * light.le(at) * weight
     }
 }
 

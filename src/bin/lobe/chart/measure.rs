@@ -126,8 +126,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Renders one picture with each method. Returns their costs and [`Plan::fingerprint`]. Methods that give the same bits
-    /// as an earlier one with the same sampler are
-    /// duplicates and removed.
+    /// as an earlier one with the same sampler are duplicates and removed.
     fn try_out(&mut self) -> Result<(Vec<Cost>, u32), Box<dyn Error>> {
         let (mut images, mut costs): (Vec<(SamplerSettings, Image)>, Vec<Cost>) =
             (Vec::new(), Vec::new());
