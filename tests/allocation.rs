@@ -70,7 +70,7 @@ impl Material for ForeignMaterial {
     }
 }
 
-/// Counts allocations between the end of tile 30, by which every kind of hit has occurred, and the end of the last
+/// In a single pass: each sets its workers up. Counts allocations between the end of tile 30, by which every kind of hit has occurred, and the end of the last
 /// tile.
 ///
 /// All cases are in one test, since the counter is global to the process. Seen to fail with a box around each
@@ -86,7 +86,7 @@ fn rendering_allocates_nothing_after_set_up() {
         (any(PathIntegrator::new(6)), SamplerKind::SOBOL),
         (any(PathIntegrator::new(6)), SamplerKind::BLUE_NOISE),
     ] {
-        let sampler = SamplerSettings { kind, spp: 16, ..Default::default() };
+        let sampler = SamplerSettings { kind, spp: 8, ..Default::default() };
         let film = FilmSettings::new(100, 80).with_filter(GaussianFilter::default());
         let view = View::perspective(&chapter_camera(), film).unwrap();
         let scene = ball_over_floor()

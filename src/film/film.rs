@@ -1,10 +1,13 @@
 //! [`Film`]: sums of the samples of each pixel.
 
+use std::io::{self, Write};
+
 use glam::{UVec2, Vec3};
 
 use super::Variance;
 use super::first_hits::FirstHits;
 use super::pixel_sum::{PixelSum, zeroed};
+use super::stored::{read_all, write_all};
 use super::variance::VarianceSums;
 use crate::image::{Picture, Window};
 use crate::spectrum::Spectrum;
@@ -113,6 +116,11 @@ impl Film {
         }
     }
 
+    /// The pixels it is for.
+    pub fn window(&self) -> Window {
+        self.window
+    }
+
     /// Whether first hits are recorded.
     pub fn has_layers(&self) -> bool {
         self.first_hits.is_some()
@@ -207,6 +215,23 @@ impl Film {
             });
             variances.collect()
         })
+    }
+
+    /// Writes all sums, for [`read_sums`](Self::read_sums).
+    pub(crate) fn write_sums(&self, to: &mut dyn Write) -> io::Result<()> {
+        to.write_all(&self.non_finite.to_le_bytes())?;
+        write_all(&self.pixels, to)?;
+        self.variance.write(to)?;
+        self.first_hits.as_deref().map_or(Ok(()), |first_hits| write_all(first_hits, to))
+    }
+
+    /// Reads what a film of the same window and contents wrote; `None` if there are too few bytes.
+    pub(crate) fn read_sums(&mut self, from: &mut &[u8]) -> Option<()> {
+        let (non_finite, rest) = from.split_first_chunk()?;
+        (self.non_finite, *from) = (u64::from_le_bytes(*non_finite), rest);
+        read_all(&mut self.pixels, from)?;
+        self.variance.read(from)?;
+        self.first_hits.as_mut().map_or(Some(()), |first_hits| read_all(first_hits, from))
     }
 
     #[inline]

@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::pixel_sum::add;
+use super::stored::Stored;
 use crate::image::Layers;
 use crate::spectrum::Spectrum;
 
@@ -13,6 +14,24 @@ pub(super) struct FirstHits {
     depth: f64,
     albedo: [f64; 3],
     hits: u32,
+}
+
+impl Stored for FirstHits {
+    fn store(&self, to: &mut Vec<u8>) {
+        self.normal.store(to);
+        self.depth.store(to);
+        self.albedo.store(to);
+        self.hits.store(to);
+    }
+
+    fn restore(from: &mut &[u8]) -> Option<Self> {
+        Some(Self {
+            normal: Stored::restore(from)?,
+            depth: f64::restore(from)?,
+            albedo: Stored::restore(from)?,
+            hits: u32::restore(from)?,
+        })
+    }
 }
 
 impl FirstHits {

@@ -9,6 +9,7 @@ mod film;
 mod filter;
 mod first_hits;
 mod pixel_sum;
+mod stored;
 mod variance;
 
 pub use film::{Film, FilmContents, FilmError};

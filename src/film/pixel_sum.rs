@@ -1,5 +1,7 @@
 //! [`PixelSum`]: the sum of a pixel's samples.
 
+use super::stored::Stored;
+
 /// Sum and number of samples.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct PixelSum {
@@ -22,6 +24,17 @@ impl PixelSum {
     /// The mean; zero without samples.
     pub fn mean(&self) -> [f64; 3] {
         self.values.map(|sum| sum / f64::from(self.samples.max(1)))
+    }
+}
+
+impl Stored for PixelSum {
+    fn store(&self, to: &mut Vec<u8>) {
+        self.values.store(to);
+        self.samples.store(to);
+    }
+
+    fn restore(from: &mut &[u8]) -> Option<Self> {
+        Some(Self { values: Stored::restore(from)?, samples: u32::restore(from)? })
     }
 }
 

@@ -1,6 +1,9 @@
 //! [`Variance`]: how the variance of pixels is estimated.
 
+use std::io::{self, Write};
+
 use super::pixel_sum::{PixelSum, zeroed};
+use super::stored::{read_all, write_all};
 
 /// How a film estimates the variance of each pixel's mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -72,6 +75,24 @@ impl VarianceSums {
                 sums.clear();
                 sums.resize(pixels * *sets, PixelSum::default());
             }
+        }
+    }
+
+    /// Writes all sums.
+    pub fn write(&self, to: &mut dyn Write) -> io::Result<()> {
+        match self {
+            Self::None => Ok(()),
+            Self::Samples(squares) => write_all(squares, to),
+            Self::Sets(_, sums) => write_all(sums, to),
+        }
+    }
+
+    /// Reads as many sums as there are; `None` if there are too few bytes.
+    pub fn read(&mut self, from: &mut &[u8]) -> Option<()> {
+        match self {
+            Self::None => Some(()),
+            Self::Samples(squares) => read_all(squares, from),
+            Self::Sets(_, sums) => read_all(sums, from),
         }
     }
 

@@ -101,7 +101,9 @@ impl Estimator for PathTracer<'_> {
         for depth in 0..=rules.max_depth {
             // L += β Le w, for lights that the rays hit.
             self.add_emitted(wave, depth);
-            if depth == rules.max_depth || wave.paths.by_hit.active.is_empty() {
+            let is_last = depth == rules.max_depth || wave.paths.by_hit.active.is_empty();
+            // Nothing but this ends paths among white walls, if there is no roulette and no limit.
+            if is_last || wave.is_cancelled() {
                 break;
             }
             // Sample values, dimension by dimension.

@@ -1,7 +1,9 @@
 //! Rendering: [`render`] takes a scene, a view and settings, and gives a picture. Tiles go to threads; progress is
 //! reported, and a render can be cancelled without losing what it has.
 
+mod checkpoint;
 mod options;
+mod part;
 mod pass;
 mod samples;
 mod schedule;
@@ -14,18 +16,23 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::clock::Stopwatch;
 use crate::film::{Film, FilmContents, Variance};
-use crate::integrator::{Counters, Integrator};
+use crate::integrator::Integrator;
 use crate::sampling::{SampleSets, Sampler};
 use crate::scene::{Scene, View};
+use checkpoint::State;
+pub use checkpoint::{Checkpoint, ResumeError, Saving};
 pub use options::{Progress, RenderError, RenderOptions, Rendered};
+pub use part::Part;
 use pass::Pass;
 use schedule::PassSchedule;
 pub use settings::{RenderSettings, SamplerSettings, SettingsError};
+use tiles::Tiles;
 
 /// Renders a scene.
 ///
-/// The picture is the same, bit by bit, for any number of threads and any size of tiles. With
-/// [`RenderOptions::time`] that holds for the same passes; others with as many samples differ by the rounding of sums.
+/// The picture is the same, bit by bit, for any number of threads and any size of tiles, and whether or not the render was
+/// [resumed](RenderOptions::resume). With [`RenderOptions::time`] that holds for the same passes; others with as many samples
+/// differ by the rounding of sums.
 ///
 /// # Errors
 /// If there is not enough memory for the film, or if the settings ask for no samples. A cancelled render is no error:
@@ -62,8 +69,8 @@ pub struct Sampling<'a> {
     pub sampler: &'a dyn Sampler,
     /// Samples in each pixel, at least 1; [`RenderOptions::spp`] takes its place.
     pub spp: u32,
-    /// Into how many independent sets they are divided, at most `spp`, of `spp / sets` samples each. The variance of a
-    /// correlated sampler is estimated from the means of its sets, which takes at least two sets.
+    /// Into how many independent sets they are divided in turn, at most `spp`. The variance of a correlated sampler is
+    /// estimated from the means of its sets, which takes at least two sets.
     pub sets: u32,
 }
 
@@ -85,7 +92,6 @@ pub fn render_with(
     sampling: Sampling,
     options: &RenderOptions,
 ) -> Result<Rendered, RenderError> {
-    let start = Stopwatch::start();
     let Sampling { sampler, spp, sets } = sampling;
     let spp = options.spp.unwrap_or(spp);
     if spp == 0 {
@@ -94,53 +100,64 @@ pub fn render_with(
     let sets = sets.clamp(1, spp);
     let time = options.time.filter(|_| Stopwatch::HAS_CLOCK);
     let limit = if options.spp.is_none() && time.is_some() { u32::MAX } else { spp };
-    let mut schedule = PassSchedule::new(limit / sets, time);
+    let samples = options.part.map_or(0..limit, |part| part.samples(limit));
+    if samples.is_empty() {
+        return Err(SettingsError::NoSamples.into());
+    }
     let variance = match options.layers {
         true => Variance::suiting(sampler.is_correlated(), sets),
         false => Variance::None,
     };
     let contents = FilmContents { variance, first_hits: options.layers };
-    let (resolution, window) = (view.film().resolution, view.film().window());
-    let area = window.area() as u64;
-    let shared = Mutex::new((Film::new(resolution, window, contents)?, Counters::default()));
-    let (mut samples_per_pixel, mut threads) = (0, 0);
-    let so_far = |samples_per_pixel, threads, complete| {
-        let shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
-        let (film, counters) = &*shared;
-        Rendered {
-            picture: film.develop(),
-            counters: *counters,
-            samples_per_pixel,
-            complete,
-            empty_pixels: film.empty_pixels(),
-            non_finite: film.non_finite(),
-            threads,
-            seconds: start.seconds(),
-        }
-    };
+    let film = Film::new(view.film().resolution, view.film().window(), contents)?;
+    let mut state = State::new(film, samples.clone(), sets, options.tile_size);
+    if let Some(bytes) = options.resume {
+        state.resume(bytes)?;
+    }
+    let limit = time.map(|time| time.as_secs_f64());
+    let mut schedule = PassSchedule::new(samples, state.next(), limit, state.before);
+    let mut under_way = (!state.is_whole()).then(|| state.pass.clone());
+    let shared = Mutex::new(state);
+    let lock = || shared.lock().unwrap_or_else(PoisonError::into_inner);
     let estimator = integrator.prepare(scene);
-    let estimator = &*estimator;
-    while let Some(indices) = schedule.next() {
-        let samples = indices.end * sets;
-        let pass = Pass { scene, view, estimator, sampler, options, indices, sets, contents };
-        let end = pass.render(&shared)?;
-        threads = threads.max(end.threads);
-        if end.pixels < area {
-            return Ok(so_far(samples_per_pixel, threads, false));
+    while let Some(samples) = under_way.take().or_else(|| schedule.next()) {
+        let mut state = lock();
+        state.begin(samples.clone());
+        let pass = Pass {
+            scene,
+            view,
+            estimator: &*estimator,
+            sampler,
+            options,
+            samples,
+            sets,
+            contents,
+            tiles: Tiles::new(view.film().window(), options.tile_size),
+            start: state.start,
+            deadline: limit.map(|limit| limit - state.before),
+        };
+        drop(state);
+        let threads = pass.render(&shared)?;
+        let mut state = lock();
+        state.threads = state.threads.max(threads);
+        if !state.is_whole() {
+            if let Some(saving) = options.save {
+                (saving.to)(&Checkpoint(&state));
+            }
+            return Ok(state.rendered(false));
         }
-        samples_per_pixel = samples;
         if let Some(on_pass) = options.on_pass {
-            on_pass(&so_far(samples_per_pixel, threads, false));
+            on_pass(&state.rendered(false));
         }
     }
-    Ok(so_far(samples_per_pixel, threads, true))
+    Ok(lock().rendered(true))
 }
 
 /// The sampler that the settings ask for.
 fn sampler_from_settings(view: &View, settings: &SamplerSettings) -> Box<dyn Sampler> {
     settings.kind.make(&SampleSets {
         resolution: view.film().resolution,
-        samples_per_set: settings.spp / settings.sets(),
+        samples_per_set: settings.spp.div_ceil(settings.sets()),
         seed: settings.seed,
     })
 }

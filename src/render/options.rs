@@ -4,6 +4,8 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
+use super::checkpoint::{ResumeError, Saving};
+use super::part::Part;
 use super::settings::SettingsError;
 use crate::film::FilmError;
 use crate::image::Picture;
@@ -19,22 +21,30 @@ pub struct RenderOptions<'a> {
     /// Samples per pixel, at least 1, in place of the settings'. With `time` it is the maximum, and `None` means no
     /// limit.
     pub spp: Option<u32>,
-    /// Limits the time. The image is rendered in passes: each takes as many samples as all before it, as long as that is
-    /// likely to fit into the time that is left; then come smaller ones, until none fits. The number of samples depends
-    /// on the machine. `Duration::MAX` with a number of samples gives passes without a limit in time. Ignored on
-    /// `wasm32-unknown-unknown`, which has no clock.
+    /// Limits the time, including that of runs before a checkpoint. Passes, which double, become smaller towards the end,
+    /// until none is likely to fit. A pass that takes longer than expected is ended as if it were cancelled. The number of
+    /// samples depends on the machine. Ignored on `wasm32-unknown-unknown`, which has no clock.
     pub time: Option<Duration>,
+    /// Which of the settings' samples are taken, for a render in parts whose pictures are
+    /// [added up](crate::film::merge_parts); `None` for all.
+    pub part: Option<Part>,
     /// Whether to keep normal, depth and albedo of the first hits, the number of samples, and the variance of each
     /// pixel, from which [`Picture::standard_error`] is.
     pub layers: bool,
     /// Called after every tile by the thread that rendered it. Other threads wait to deliver theirs until it
     /// returns, so it should be quick.
     pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
-    /// Called after every pass, by the thread that called [`render`](super::render), with the picture so far. Without `time` there is
-    /// one pass. The next one begins when it returns.
+    /// Called after every pass, by the thread that called [`render`](super::render), with the picture so far. Passes take as
+    /// many samples as all before them: 8, 8, 16, 32, ... or with `time` 1, 1, 2, 4, ... The next one begins when it returns.
     pub on_pass: Option<&'a (dyn Fn(&Rendered) + Sync)>,
-    /// Ends the render early once it is true. It is looked at before each wave of about a thousand samples.
+    /// Ends the render early once it is true. It is looked at before each wave of about a thousand samples, and at each
+    /// reflection.
     pub cancel: Option<&'a AtomicBool>,
+    /// Stores the render from time to time.
+    pub save: Option<Saving<'a>>,
+    /// What [`Checkpoint::write`](super::Checkpoint::write) wrote: the render goes on from there, and gives the same picture as if it had
+    /// never stopped. Scene, view, settings and options have to be the same, but for threads.
+    pub resume: Option<&'a [u8]>,
 }
 
 impl Default for RenderOptions<'_> {
@@ -44,10 +54,13 @@ impl Default for RenderOptions<'_> {
             tile_size: 16,
             spp: None,
             time: None,
+            part: None,
             layers: false,
             progress: None,
             on_pass: None,
             cancel: None,
+            save: None,
+            resume: None,
         }
     }
 }
@@ -76,8 +89,8 @@ pub struct Rendered {
     /// Samples of whole passes, the same number in each pixel. When a render is cancelled, pixels in tiles that its
     /// last pass finished have more; [`Layers::samples`](crate::image::Layers::samples) tells how many.
     pub samples_per_pixel: u32,
-    /// Whether all samples were taken that were asked for, or that `time` allowed. It is false if the render was
-    /// cancelled, and for [`RenderOptions::on_pass`], since more may come.
+    /// Whether all samples were taken that were asked for, or that `time` allowed in whole passes. It is false if the render
+    /// was cancelled or time ended within a pass, and for [`RenderOptions::on_pass`], since more may come.
     pub complete: bool,
     /// Pixels without any sample, which are black: those that a cancelled render did not reach, and those whose samples
     /// were all left out.
@@ -100,4 +113,7 @@ pub enum RenderError {
     /// The settings ask for no samples.
     #[error(transparent)]
     Settings(#[from] SettingsError),
+    /// The render cannot go on from [`RenderOptions::resume`].
+    #[error(transparent)]
+    Resume(#[from] ResumeError),
 }

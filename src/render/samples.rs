@@ -8,6 +8,9 @@ use crate::image::Window;
 use crate::sampling::SampleId;
 
 /// The samples of a pass: pixel by pixel, row by row, in each pixel set by set, in each set by index.
+///
+/// The samples of a pixel are numbered across its sets in turn: number `n` is in set `n % sets` and has index `n / sets`
+/// there. So sets differ by at most one sample, however many there are.
 pub struct Samples {
     window: Window,
     sets: u32,
@@ -16,10 +19,36 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// The samples whose indices are in `pass`, which is not empty, of `sets` sets for each pixel of `window`.
+    /// The samples whose numbers are in `pass`, which is not empty, of `sets` sets for each pixel of `window`.
     pub fn new(window: Window, sets: u32, pass: Range<u32>) -> Self {
-        let next = SampleId { pixel: window.min, set: 0, index: pass.start };
-        Self { window, sets, pass, next }
+        let first = SampleId { pixel: window.min, set: 0, index: 0 };
+        let mut samples = Self { window, sets, pass, next: first };
+        samples.begin_set(first);
+        samples
+    }
+
+    /// The indices of the samples in `set`.
+    fn indices(&self, set: u32) -> Range<u32> {
+        let below = |number: u32| number.saturating_sub(set).div_ceil(self.sets);
+        below(self.pass.start)..below(self.pass.end)
+    }
+
+    /// Goes on at the first sample of the set of `at`, or of the next set that has any.
+    fn begin_set(&mut self, mut at: SampleId) {
+        loop {
+            if at.set == self.sets {
+                (at.set, at.pixel.x) = (0, at.pixel.x + 1);
+            }
+            if at.pixel.x == self.window.max.x {
+                at.pixel = UVec2::new(self.window.min.x, at.pixel.y + 1);
+            }
+            let indices = self.indices(at.set);
+            if !indices.is_empty() {
+                self.next = SampleId { index: indices.start, ..at };
+                return;
+            }
+            at.set += 1;
+        }
     }
 
     /// Whether all have been handed out.
@@ -34,27 +63,13 @@ impl Samples {
             // Samples of one set differ in their index alone.
             let left = u32::try_from(most - ids.len()).unwrap_or(u32::MAX);
             let first = self.next;
-            let count = (self.pass.end - first.index).min(left);
+            let end = self.indices(first.set).end;
+            let count = (end - first.index).min(left);
             ids.extend((0..count).map(|i| SampleId { index: first.index + i, ..first }));
-            self.advance(count);
-        }
-    }
-
-    /// Goes on by `count` samples, at most those that are left of the set.
-    fn advance(&mut self, count: u32) {
-        self.next.index += count;
-        if self.next.index < self.pass.end {
-            return;
-        }
-        self.next.index = self.pass.start;
-        self.next.set += 1;
-        if self.next.set < self.sets {
-            return;
-        }
-        self.next.set = 0;
-        self.next.pixel.x += 1;
-        if self.next.pixel.x == self.window.max.x {
-            self.next.pixel = UVec2::new(self.window.min.x, self.next.pixel.y + 1);
+            match first.index + count {
+                index if index < end => self.next.index = index,
+                _ => self.begin_set(SampleId { set: first.set + 1, ..first }),
+            }
         }
     }
 }
@@ -63,26 +78,43 @@ impl Samples {
 mod tests {
     use super::*;
 
-    /// Whatever the wave's length, in the same order.
+    /// Whatever the wave's length, in the same order; with passes that leave out sets, first, last and in the middle.
     #[test]
     fn samples_come_once_and_in_order() {
         let window = Window { min: UVec2::new(3, 5), max: UVec2::new(6, 7) };
-        let (sets, pass) = (3, 2..7);
-        let mut expected = Vec::new();
-        for (y, x) in (5..7).flat_map(|y| (3..6).map(move |x| (y, x))) {
-            for (set, index) in (0..3).flat_map(|set| (2..7).map(move |index| (set, index))) {
-                expected.push(SampleId { pixel: UVec2::new(x, y), set, index });
+        for (sets, pass) in
+            [(3, 6..21), (3, 7..9), (3, 5..7), (1, 2..7), (4, 3..6), (5, 0..23), (7, 0..1)]
+        {
+            let mut expected = Vec::new();
+            for (y, x) in (5..7).flat_map(|y| (3..6).map(move |x| (y, x))) {
+                for set in 0..sets {
+                    let of_set = pass.clone().filter(|number| number % sets == set);
+                    let pixel = UVec2::new(x, y);
+                    expected.extend(of_set.map(|n| SampleId { pixel, set, index: n / sets }));
+                }
+            }
+            for most in [1, 4, 7, 15, 1000] {
+                let mut samples = Samples::new(window, sets, pass.clone());
+                let (mut all, mut wave) = (Vec::new(), Vec::new());
+                while !samples.is_empty() {
+                    samples.fill(most, &mut wave);
+                    assert!(!wave.is_empty() && wave.len() <= most);
+                    all.extend_from_slice(&wave);
+                }
+                assert_eq!(all, expected, "waves of {most}, {pass:?} of {sets} sets");
             }
         }
-        for most in [1, 4, 7, 15, 1000] {
-            let mut samples = Samples::new(window, sets, pass.clone());
-            let (mut all, mut wave) = (Vec::new(), Vec::new());
-            while !samples.is_empty() {
-                samples.fill(most, &mut wave);
-                assert!(!wave.is_empty() && wave.len() <= most);
-                all.extend_from_slice(&wave);
-            }
-            assert_eq!(all, expected, "waves of {most}");
-        }
+    }
+
+    /// The largest numbers do not overflow.
+    #[test]
+    fn numbers_reach_up_to_the_largest() {
+        let window = Window::full(UVec2::ONE);
+        let mut samples = Samples::new(window, 3, u32::MAX - 2..u32::MAX);
+        let mut wave = Vec::new();
+        samples.fill(9, &mut wave);
+        let places: Vec<_> = wave.iter().map(|id| (id.set, id.index)).collect();
+        assert_eq!(places, [(1, 1_431_655_764), (2, 1_431_655_764)]);
+        assert!(samples.is_empty());
     }
 }

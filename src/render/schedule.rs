@@ -1,48 +1,56 @@
-//! [`PassSchedule`]: which samples of a set are taken in which pass.
+//! [`PassSchedule`]: which samples of a pixel are taken in which pass.
 
 use std::ops::Range;
-use std::time::Duration;
 
 use crate::clock::Stopwatch;
 
-/// The passes of a render, as ranges of sample indices: one pass with all samples, or with a time limit powers of two.
+/// The passes of a render, as ranges of a pixel's samples: each takes as many as all before it, as far as time allows.
 pub struct PassSchedule {
-    limit: u32,
-    time: Option<Duration>,
+    end: u32,
+    /// Limit in seconds, if there is one.
+    time: Option<f64>,
+    /// Seconds that were spent before `start`.
+    before: f64,
     start: Stopwatch,
-    scheduled: u32,
+    first: u32,
+    next: u32,
 }
 
 impl PassSchedule {
-    /// Up to `limit` samples in a set, within `time` from now on. The first pass is taken in any case.
-    pub fn new(limit: u32, time: Option<Duration>) -> Self {
-        Self { limit: limit.max(1), time, start: Stopwatch::start(), scheduled: 0 }
+    /// Samples in the first pass, where time is not limited: enough for waves to be full.
+    const FIRST: u32 = 8;
+
+    /// The passes of `samples`, from the one that begins at `next` on, within `time` seconds, of which `before` are over.
+    pub fn new(samples: Range<u32>, next: u32, time: Option<f64>, before: f64) -> Self {
+        let start = Stopwatch::start();
+        Self { end: samples.end, time, before, start, first: samples.start, next }
     }
 
     /// The next pass; `None` when nothing is left of samples or time.
     pub fn next(&mut self) -> Option<Range<u32>> {
-        let size = match self.time {
-            None => self.limit - self.scheduled,
-            Some(time) => self.fitting(self.start.seconds(), time.as_secs_f64()),
+        let taken = self.next - self.first;
+        let doubled = match (taken, self.time) {
+            (0, None) => Self::FIRST,
+            (0, Some(_)) => 1,
+            (taken, _) => 1 << taken.ilog2(),
         };
-        let pass = self.scheduled..self.scheduled + size;
-        self.scheduled = pass.end;
-        (size > 0).then_some(pass)
+        let size = match self.time {
+            Some(time) if taken > 0 => self.affordable(doubled, time),
+            _ => doubled,
+        };
+        let pass = self.next..self.next + size.min(self.end - self.next);
+        self.next = pass.end;
+        (!pass.is_empty()).then_some(pass)
     }
 
-    /// As many samples as earlier passes took, or the largest power of two below that is likely to end in time, by
-    /// what samples took so far.
-    fn fitting(&self, elapsed: f64, time: f64) -> u32 {
-        let left = self.limit - self.scheduled;
-        if self.scheduled == 0 {
-            return 1;
-        }
-        let affordable = (time - elapsed) / (elapsed / f64::from(self.scheduled));
-        let mut size = 1 << self.scheduled.ilog2();
+    /// The largest power of two up to `size` that is likely to end in time, by what samples took so far; 0 if none is.
+    fn affordable(&self, mut size: u32, time: f64) -> u32 {
+        let elapsed = self.before + self.start.seconds();
+        let affordable = (time - elapsed) / (elapsed / f64::from(self.next - self.first));
         while size > 0 && f64::from(size) > affordable {
             size >>= 1;
         }
-        size.min(left)
+        size
     }
 }
 
@@ -50,9 +58,9 @@ impl PassSchedule {
 mod tests {
     use super::*;
 
-    /// All sizes until there are no more.
-    fn sizes(limit: u32, time: Option<Duration>) -> Vec<u32> {
-        let (mut schedule, mut end) = (PassSchedule::new(limit, time), 0);
+    /// All passes until there are no more.
+    fn passes(samples: Range<u32>, next: u32, time: Option<f64>) -> Vec<u32> {
+        let (mut schedule, mut end) = (PassSchedule::new(samples, next, time, 0.0), next);
         let sizes = std::iter::from_fn(|| schedule.next()).map(|pass| {
             assert_eq!(pass.start, end, "samples are left out or taken twice");
             end = pass.end;
@@ -61,14 +69,20 @@ mod tests {
         sizes.collect()
     }
 
-    /// Doubled until the limit, or one pass where time allows no more.
+    /// Doubled until the limit; from 1 on where time is limited.
     #[test]
     fn passes_double_up_to_the_limit() {
-        let long = Some(Duration::from_secs(1 << 20));
-        assert_eq!(sizes(7, long), [1, 1, 2, 3]);
-        assert_eq!(sizes(1, long), [1]);
-        assert_eq!(sizes(64, None), [64]);
-        assert_eq!(sizes(0, None), [1]);
-        assert_eq!(sizes(u32::MAX, Some(Duration::from_nanos(1))), [1]);
+        let long = Some(1e9);
+        assert_eq!(passes(0..7, 0, long), [1, 1, 2, 3]);
+        assert_eq!(passes(0..1, 0, long), [1]);
+        assert_eq!(passes(0..64, 0, None), [8, 8, 16, 32]);
+        assert_eq!(passes(0..7, 0, None), [7]);
+        assert_eq!(passes(0..u32::MAX, 0, Some(1e-9)), [1]);
+        // A part of the samples has the passes of as many; a render that goes on has those that are left.
+        assert_eq!(passes(100..120, 100, None), [8, 8, 4]);
+        assert_eq!(passes(0..64, 16, None), [16, 32]);
+        assert_eq!(passes(0..64, 64, None), []);
+        assert_eq!(passes(u32::MAX - 9..u32::MAX, u32::MAX - 9, None), [8, 1]);
+        assert_eq!(passes(0..u32::MAX, 1 << 31, None), [u32::MAX >> 1]);
     }
 }

@@ -66,14 +66,14 @@ impl SamplerSettings {
     /// Maximum number of sets: more would not improve the estimate of the error.
     pub const MAX_SETS: u32 = 1024;
 
-    /// How many independent sets the samples of a pixel are divided into, all of the same size: the largest
-    /// divisor of `spp` that is not above `replicates`; one set if the samples are independent.
+    /// How many independent sets the samples of a pixel are divided into, whose sizes differ by one sample at most:
+    /// `replicates`, as far as there are samples; one set if the samples are independent.
     pub fn sets(&self) -> u32 {
-        if !self.kind.is_correlated() {
-            return 1;
+        if self.kind.is_correlated() {
+            self.replicates.min(self.spp).clamp(1, Self::MAX_SETS)
+        } else {
+            1
         }
-        let most = self.replicates.min(self.spp).clamp(1, Self::MAX_SETS);
-        (1..=most).rev().find(|sets| self.spp.is_multiple_of(*sets)).unwrap_or(1)
     }
 }
 

@@ -27,17 +27,19 @@ impl Tiles {
         self.grid.x as usize * self.grid.y as usize
     }
 
-    /// The next tile, or `None` when all have been handed out.
-    pub fn next(&self) -> Option<Window> {
+    /// The next tile with its number, or `None` when all have been handed out.
+    pub fn next(&self) -> Option<(usize, Window)> {
         let index = self.next.fetch_add(1, Ordering::Relaxed);
-        if index >= self.count() {
-            return None;
-        }
+        (index < self.count()).then(|| (index, self.window(index)))
+    }
+
+    /// The pixels of a tile.
+    pub fn window(&self, index: usize) -> Window {
         let columns = self.grid.x as usize;
         let cell = UVec2::new((index % columns) as u32, (index / columns) as u32);
         let min = self.window.min + cell * self.size;
         // Saturating: a tile may be asked to be larger than any image.
         let max = UVec2::new(min.x.saturating_add(self.size), min.y.saturating_add(self.size));
-        Some(Window { min, max: max.min(self.window.max) })
+        Window { min, max: max.min(self.window.max) }
     }
 }

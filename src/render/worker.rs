@@ -14,6 +14,9 @@ use crate::sampling::SampleId;
 /// rays and hits to stay in the second-level cache.
 const WAVE: usize = 1024;
 
+/// Bytes that have to be free when a worker is made, beside its own: for its thread.
+const SPARE: usize = 16 << 20;
+
 /// How many points estimate a reflectance that has no closed form.
 const RHO_POINTS: usize = 16;
 
@@ -21,38 +24,49 @@ const RHO_POINTS: usize = 16;
 /// grows until it has met the hit that needs most.
 pub struct Worker<'a> {
     pass: &'a Pass<'a>,
-    wave: Wave,
+    wave: Wave<'a>,
     tile: Film,
     rho_choices: [f32; RHO_POINTS],
     rho_points: [Vec2; RHO_POINTS],
 }
 
 impl<'a> Worker<'a> {
-    /// A worker with room for the largest tile.
-    pub fn new(pass: &'a Pass<'a>) -> Result<Self, FilmError> {
+    /// A worker with room for the largest tile. `cancelled` tells when it is to stop.
+    pub fn new(
+        pass: &'a Pass<'a>,
+        cancelled: &'a (dyn Fn() -> bool + Sync),
+    ) -> Result<Self, FilmError> {
         let film = pass.view.film();
         let size = film.window().size().min(UVec2::splat(pass.options.tile_size.max(1)));
         let largest = Window { min: UVec2::ZERO, max: size };
         let tile = Film::new(film.resolution, largest, pass.contents)?;
-        let wave = Wave::with_capacity(WAVE, pass.estimator.shadow_rays());
+        let shadow_rays = pass.estimator.shadow_rays();
+        let bytes = Wave::bytes(WAVE, shadow_rays) + SPARE;
+        if Vec::<u8>::new().try_reserve_exact(bytes).is_err() {
+            return Err(FilmError::TooLarge(size.x, size.y, (bytes >> 20) as u64));
+        }
+        let wave = Wave::with_capacity(WAVE, shadow_rays, cancelled);
         let rho_choices = std::array::from_fn(|i| (i as f32 * 0.754_877_7).fract());
         Ok(Self { pass, wave, tile, rho_choices, rho_points: lattice() })
     }
 
-    /// Renders the samples of the pass in a tile, wave by wave, and returns whether it took them all: it stops before
-    /// the next wave once the render is cancelled. The samples of a pixel are added in the order of set and index, so
+    /// Renders the samples of the pass in a tile, wave by wave, and returns whether it took them all: once the render is
+    /// cancelled it stops, within a wave if that has a path that goes on. The samples of a pixel are added in the order of set and index, so
     /// that its sum does not depend on how the image is cut.
     pub fn render(&mut self, window: Window) -> bool {
-        let Pass { scene, view, estimator, sampler, sets, ref indices, .. } = *self.pass;
+        let Pass { scene, view, estimator, sampler, sets, ref samples, .. } = *self.pass;
         self.tile.reset(window);
-        let mut samples = Samples::new(window, sets, indices.clone());
+        let mut samples = Samples::new(window, sets, samples.clone());
         while !samples.is_empty() {
-            if self.pass.is_cancelled() {
+            if self.wave.is_cancelled() {
                 return false;
             }
             samples.fill(WAVE, &mut self.wave.ids);
             self.wave.begin(scene, view, sampler);
             estimator.shade(sampler, &mut self.wave);
+            if self.wave.is_cut() {
+                return false;
+            }
             self.add_samples();
             if self.tile.has_layers() {
                 self.add_first_hits();

@@ -48,9 +48,9 @@ fn render_writes_what_it_is_asked_for() {
     assert!(png.windows(6).any(|window| window == b"Seed\x007"));
 
     // A single set of Sobol points has no estimate of its error.
-    for (spp, known) in [(8, true), (7, false)] {
+    for (spp, sets, known) in [(8, 2, true), (7, 2, true), (8, 1, false)] {
         let summary = folder.prints(&format!(
-            "render s.toml -o d.exr --spp {spp} --set sampler.type=\"sobol\" --set sampler.replicates=2"
+            "render s.toml -o d.exr --spp {spp} --set sampler.type=\"sobol\" --set sampler.replicates={sets}"
         ));
         assert_eq!(value(&summary, "error") != "unknown:", known, "{summary}");
         fs::remove_file(folder.0.join("d.exr")).unwrap();

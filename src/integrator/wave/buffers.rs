@@ -17,7 +17,7 @@ use crate::spectrum::Spectrum;
 /// A batch of camera samples, and the buffers that one worker reuses for each batch. Element i of `ids`, `rays`,
 /// `hits` and `radiance` belongs to the same sample.
 #[derive(Default)]
-pub struct Wave {
+pub struct Wave<'a> {
     /// Pixel and sample index.
     pub ids: Vec<SampleId>,
     /// Sample values for the filter and the lens.
@@ -37,11 +37,42 @@ pub struct Wave {
     pub arena: Arena,
     /// Rays traced and errors counted so far.
     pub counters: Counters,
+    /// Tells whether the render is to end.
+    cancelled: Option<&'a (dyn Fn() -> bool + Sync)>,
+    /// Whether it said so to [`is_cancelled`](Self::is_cancelled).
+    is_cut: bool,
 }
 
-impl Wave {
-    /// A wave with capacity for `samples` samples, and for `shadow_rays` shadow rays each.
-    pub fn with_capacity(samples: usize, shadow_rays: usize) -> Self {
+impl<'a> Wave<'a> {
+    /// Bytes that [`with_capacity`](Self::with_capacity) allocates.
+    pub fn bytes(samples: usize, shadow_rays: usize) -> usize {
+        let camera_ray = size_of::<SampleId>()
+            + 2 * size_of::<Vec2>()
+            + size_of::<Ray>()
+            + size_of::<Hit>()
+            + size_of::<Spectrum>();
+        samples * (camera_ray + Paths::BYTES + shadow_rays * ShadowRays::BYTES)
+    }
+
+    /// Whether the render was cancelled or its time is over. For integrators whose work on a wave has no bound: once it
+    /// is true they return, and the wave is discarded.
+    pub fn is_cancelled(&mut self) -> bool {
+        self.is_cut |= self.cancelled.is_some_and(|cancelled| cancelled());
+        self.is_cut
+    }
+
+    /// Whether its radiance is incomplete, since [`is_cancelled`](Self::is_cancelled) was true.
+    pub(crate) fn is_cut(&self) -> bool {
+        self.is_cut
+    }
+
+    /// A wave with capacity for `samples` samples, and for `shadow_rays` shadow rays each, of a render that ends when
+    /// `cancelled` says so.
+    pub fn with_capacity(
+        samples: usize,
+        shadow_rays: usize,
+        cancelled: &'a (dyn Fn() -> bool + Sync),
+    ) -> Self {
         Self {
             ids: Vec::with_capacity(samples),
             film: Vec::with_capacity(samples),
@@ -51,6 +82,7 @@ impl Wave {
             radiance: Vec::with_capacity(samples),
             shadow: ShadowRays::with_capacity(samples * shadow_rays),
             paths: Paths::with_capacity(samples),
+            cancelled: Some(cancelled),
             ..Self::default()
         }
     }

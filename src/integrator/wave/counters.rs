@@ -24,12 +24,24 @@ impl Counters {
         self.camera_rays + self.shadow_rays + self.scattered_rays
     }
 
+    /// Number of counts.
+    pub(crate) const COUNT: usize = 5;
+
+    /// All counts, in the order of the fields.
+    pub(crate) fn to_array(self) -> [u64; Self::COUNT] {
+        let Self { camera_rays, shadow_rays, scattered_rays, rejected, refused_camera_rays } = self;
+        [camera_rays, shadow_rays, scattered_rays, rejected, refused_camera_rays]
+    }
+
+    /// The inverse of [`to_array`](Self::to_array).
+    pub(crate) fn from_array(counts: [u64; Self::COUNT]) -> Self {
+        let [camera_rays, shadow_rays, scattered_rays, rejected, refused_camera_rays] = counts;
+        Self { camera_rays, shadow_rays, scattered_rays, rejected, refused_camera_rays }
+    }
+
     /// Adds the counts of another worker.
     pub fn add(&mut self, other: &Self) {
-        self.camera_rays += other.camera_rays;
-        self.shadow_rays += other.shadow_rays;
-        self.scattered_rays += other.scattered_rays;
-        self.rejected += other.rejected;
-        self.refused_camera_rays += other.refused_camera_rays;
+        let (a, b) = (self.to_array(), other.to_array());
+        *self = Self::from_array(std::array::from_fn(|i| a[i] + b[i]));
     }
 }

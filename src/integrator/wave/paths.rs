@@ -51,6 +51,15 @@ pub struct Paths {
 }
 
 impl Paths {
+    /// Bytes of all buffers for each path.
+    pub const BYTES: usize = 3 * size_of::<Path>()
+        + 2 * size_of::<Ray>()
+        + size_of::<Hit>()
+        + 3 * size_of::<u32>()
+        + size_of::<SampleId>()
+        + 2 * size_of::<Vec2>()
+        + 2 * size_of::<f32>();
+
     /// Buffers with capacity for `paths` paths.
     pub fn with_capacity(paths: usize) -> Self {
         Self {

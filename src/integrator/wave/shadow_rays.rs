@@ -16,6 +16,10 @@ pub struct ShadowRays {
 }
 
 impl ShadowRays {
+    /// Bytes of all buffers for each ray.
+    pub(super) const BYTES: usize =
+        size_of::<Ray>() + size_of::<u32>() + size_of::<Spectrum>() + size_of::<bool>();
+
     pub(super) fn with_capacity(rays: usize) -> Self {
         Self {
             rays: Vec::with_capacity(rays),
