@@ -32,6 +32,7 @@ fn picture() -> Picture {
         color: pixels(0).collect(),
         variance: Some(pixels(5).collect()),
         layers: None,
+        planes: Vec::new(),
     }
 }
 

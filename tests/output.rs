@@ -73,6 +73,7 @@ fn crop() -> Picture {
             albedo: (0..n).map(|i| triple(i, 3).into()).collect(),
             samples: (0..n).map(|i| value(7 * i + 5).to_bits()).collect(),
         }),
+        planes: Vec::new(),
     }
 }
 
@@ -86,6 +87,7 @@ fn ramp() -> Picture {
         color: (0..1200).map(color).collect(),
         variance: None,
         layers: None,
+        planes: Vec::new(),
     }
 }
 
@@ -95,6 +97,7 @@ fn metadata() -> Metadata {
         seed: u64::MAX - 1,
         samples_per_pixel: 4096,
         seconds: 0.1 + 0.2,
+        part: None,
     }
 }
 
@@ -467,8 +470,14 @@ fn the_last_pixel_of_the_largest_image_can_be_written() {
     let path = folder.file("x");
     let resolution = UVec2::splat((1 << 30) - 2);
     let window = Window { min: resolution - 1, max: resolution };
-    let picture =
-        Picture { resolution, window, color: vec![Spectrum::WHITE], variance: None, layers: None };
+    let picture = Picture {
+        resolution,
+        window,
+        color: vec![Spectrum::WHITE],
+        variance: None,
+        layers: None,
+        planes: Vec::new(),
+    };
     write_exr(&path, &picture, &metadata()).unwrap();
     assert_eq!(read_exr(&path).layer_data[0].size, Vec2(1, 1));
     write_png(&path, &picture, Display::Srgb, &metadata()).unwrap();

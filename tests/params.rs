@@ -175,7 +175,7 @@ fn paths_are_relative_to_the_folder_of_their_source() {
         let Value::Table(entries) = &mut root.value else { unreachable!() };
         let Value::Table(entries) = &mut entries[0].node.value else { unreachable!() };
         entries[0].node.mark = Mark { source, offset: 0 };
-        let document = Document { root, folders: vec!["a".into(), "c".into()] };
+        let document = Document::in_folders(root, vec!["a".into(), "c".into()]);
         let root = document.table("", &["file"]).unwrap();
         let read = FILES.read(root.table("file").unwrap(), |kind, table| (kind.read)(table));
         assert_eq!(read.unwrap(), std::path::PathBuf::from(path));

@@ -106,7 +106,7 @@ fn assert_camera(view: &View, settings: &PerspectiveSettings) {
 fn a_file_gives_its_scene() {
     let path = folder("good").join("scene.toml");
     std::fs::write(&path, GOOD).unwrap();
-    let LoadedScene { scene, view, settings, report } = read_scene(&path, &[]).unwrap();
+    let LoadedScene { scene, view, settings, report, .. } = read_scene(&path, &[]).unwrap();
 
     let camera = PerspectiveSettings {
         eye: Vec3::new(-3.0, 1.5, -3.0),

@@ -7,9 +7,10 @@ use glam::{UVec2, Vec3};
 use super::Variance;
 use super::first_hits::FirstHits;
 use super::pixel_sum::{PixelSum, zeroed};
+use super::planes::Kind;
 use super::stored::{read_all, write_all};
 use super::variance::VarianceSums;
-use crate::image::{Picture, Window};
+use crate::image::{Picture, Plane, Window};
 use crate::spectrum::Spectrum;
 
 /// Why a film cannot be created.
@@ -202,7 +203,41 @@ impl Film {
         let layers = self.first_hits.as_ref().map(|pixels| FirstHits::develop(pixels, samples()));
         let color = self.pixels.iter().map(|p| p.mean().map(|m| m as f32).into()).collect();
         let variance = self.develop_variance();
-        Picture { resolution: self.resolution, window: self.window, color, variance, layers }
+        let (resolution, window, planes) = (self.resolution, self.window, Vec::new());
+        Picture { resolution, window, color, variance, layers, planes }
+    }
+
+    /// The picture, with all that the film keeps as [`planes`](Picture::planes).
+    pub fn develop_part(&self) -> Picture {
+        let (pixels, mut planes) = (self.pixels.len(), Vec::new());
+        Kind::Sum.push(&self.pixels, pixels, &mut planes);
+        self.variance.push_planes(pixels, &mut planes);
+        if let Some(first_hits) = &self.first_hits {
+            Kind::FirstHits.push(first_hits, pixels, &mut planes);
+        }
+        Picture { planes, ..self.develop() }
+    }
+
+    /// The film that a [part's picture](Self::develop_part) was developed from, but for
+    /// [`non_finite`](Self::non_finite); `None` if the picture has no such planes.
+    ///
+    /// # Errors
+    /// Those of [`Film::new`].
+    pub fn from_planes(
+        resolution: UVec2,
+        window: Window,
+        planes: &[Plane],
+    ) -> Result<Option<Self>, FilmError> {
+        let variance = VarianceSums::kind(planes);
+        let contents = FilmContents { variance, first_hits: Kind::FirstHits.words(planes) > 0 };
+        let mut film = Self::new(resolution, window, contents)?;
+        let pixels = window.area();
+        let first_hits = film.first_hits.as_mut().map_or(&mut [][..], |first_hits| first_hits);
+        let is_whole = Kind::Sum.words(planes) > 0
+            && Kind::Sum.restore(&mut film.pixels, pixels, planes).is_some()
+            && film.variance.restore_planes(pixels, planes).is_some()
+            && Kind::FirstHits.restore(first_hits, pixels, planes).is_some();
+        Ok(is_whole.then_some(film))
     }
 
     /// The variance of each pixel's mean, infinite where there is no estimate; `None` if no pixel has one.

@@ -3,7 +3,9 @@
 use std::io::{self, Write};
 
 use super::pixel_sum::{PixelSum, zeroed};
+use super::planes::Kind;
 use super::stored::{read_all, write_all};
+use crate::image::Plane;
 
 /// How a film estimates the variance of each pixel's mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -75,6 +77,34 @@ impl VarianceSums {
                 sums.clear();
                 sums.resize(pixels * *sets, PixelSum::default());
             }
+        }
+    }
+
+    /// What planes hold.
+    pub fn kind(planes: &[Plane]) -> Variance {
+        let words_of_sum = Kind::Sum.words(planes).max(1);
+        match Kind::Sets.words(planes) / words_of_sum {
+            0 if Kind::Squares.words(planes) > 0 => Variance::OfSamples,
+            0 => Variance::None,
+            sets => Variance::OfSets(sets as u32),
+        }
+    }
+
+    /// Appends all sums of `pixels` pixels.
+    pub fn push_planes(&self, pixels: usize, to: &mut Vec<Plane>) {
+        match self {
+            Self::None => {}
+            Self::Samples(squares) => Kind::Squares.push(squares, pixels, to),
+            Self::Sets(_, sums) => Kind::Sets.push(sums, pixels, to),
+        }
+    }
+
+    /// Restores the sums of `pixels` pixels; `None` if planes are missing.
+    pub fn restore_planes(&mut self, pixels: usize, from: &[Plane]) -> Option<()> {
+        match self {
+            Self::None => Some(()),
+            Self::Samples(squares) => Kind::Squares.restore(squares, pixels, from),
+            Self::Sets(_, sums) => Kind::Sets.restore(sums, pixels, from),
         }
     }
 

@@ -9,8 +9,8 @@ use super::WriteError;
 
 /// Checks that a file can be written to `path`, before time is spent on rendering it.
 ///
-/// Creates an empty file with a temporary name in the same folder and removes it again. An existing file at `path` is
-/// not touched. Whether there will be enough space is not checked.
+/// Creates an empty file with a temporary name in the same folder and removes it again, and with it what killed processes
+/// left of such files. An existing file at `path` is not touched. Whether there will be enough space is not checked.
 ///
 /// # Errors
 /// The error that [`write_file`] would return for this path.
@@ -21,31 +21,46 @@ use super::WriteError;
 /// assert!(error.to_string().ends_with("create it first"));
 /// ```
 pub fn check_writable(path: impl AsRef<Path>) -> Result<(), WriteError> {
-    Temporary::beside(path.as_ref()).map(drop)
+    let temporary = Temporary::beside(path.as_ref())?;
+    sweep_temporaries(folder_of(&temporary.path));
+    Ok(())
 }
 
 /// Writes a file whole or not at all: the contents go to a temporary file in the same folder, which is flushed to the
 /// disk and then renamed to `path`. A file that was there before stays whole until then, and for good when anything
-/// fails. Symbolic links to files are followed (one that leads nowhere is replaced), and the permissions of an existing
-/// file are kept.
+/// fails. Symbolic links are followed, and the permissions of an existing file are kept.
 ///
-/// If the process is killed while it writes, a hidden file `.lobe-*.tmp` may remain in the folder.
+/// If the process is killed while it writes, a hidden file `.lobe-*.tmp` may remain in the folder, until
+/// [`check_writable`] is called for a file there.
 ///
 /// # Errors
 /// When the path cannot be written.
 pub fn write_file(path: impl AsRef<Path>, contents: &[u8]) -> Result<(), WriteError> {
-    replace(path.as_ref(), |file| file.write_all(contents))
+    write_file_with(path, |file| file.write_all(contents))
 }
 
 /// [`write_file`] with contents from a function.
-pub(super) fn replace(
-    path: &Path,
+///
+/// # Errors
+/// When the path cannot be written, and those of `write`.
+pub fn write_file_with(
+    path: impl AsRef<Path>,
     write: impl FnOnce(&mut File) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    let mut temporary = Temporary::beside(path)?;
-    write(&mut temporary.file)
-        .and_then(|()| temporary.finish())
-        .map_err(|error| WriteError::System { path: path.to_owned(), error })
+    Temporary::filled(path.as_ref(), write)?.finish()
+}
+
+/// Writes several files, all or none: renaming begins when the contents of all are on the disk. A process that is killed
+/// between two of the renames, which take microseconds, leaves some files new and others old.
+///
+/// # Errors
+/// When one of the paths cannot be written: then all files are as they were, unless it was a renaming that failed.
+pub fn write_files(files: &[(&Path, &[u8])]) -> Result<(), WriteError> {
+    let filled = files
+        .iter()
+        .map(|(path, contents)| Temporary::filled(path, |file| file.write_all(contents)));
+    let filled: Vec<_> = filled.collect::<Result<_, _>>()?;
+    filled.into_iter().try_for_each(Temporary::finish)
 }
 
 /// Where a path leads, after links, once it is known that a file can be there.
@@ -58,6 +73,7 @@ struct Target {
 impl Target {
     fn resolve(path: &Path) -> Result<Self, WriteError> {
         let given = path.to_owned();
+        let path = &follow_dangling(path);
         match fs::metadata(path) {
             Ok(found) if found.is_dir() => Err(WriteError::Folder { path: given }),
             Ok(found) if !found.is_file() => Err(WriteError::NotAFile { path: given }),
@@ -68,13 +84,13 @@ impl Target {
                 Ok(path) => Ok(Self { path, permissions: Some(found.permissions()) }),
                 Err(error) => Err(WriteError::System { path: given, error }),
             },
-            Err(error) if is_absence(&error) => Self::new_file(path),
+            Err(error) if is_absence(&error) => Self::new_file(path, given),
             Err(error) => Err(WriteError::System { path: given, error }),
         }
     }
 
-    fn new_file(path: &Path) -> Result<Self, WriteError> {
-        let given = path.to_owned();
+    /// `given` is the path before links were followed.
+    fn new_file(path: &Path, given: PathBuf) -> Result<Self, WriteError> {
         let Some(name) = path.file_name() else {
             return Err(WriteError::NoFileName { path: given });
         };
@@ -85,6 +101,18 @@ impl Target {
             _ => Err(WriteError::MissingFolder { path: given, folder: folder.to_owned() }),
         }
     }
+}
+
+/// Where a chain of links ends that leads to no file yet; other paths as they are.
+fn follow_dangling(path: &Path) -> PathBuf {
+    // As many links as Linux follows.
+    const MOST: usize = 40;
+    let mut path = path.to_owned();
+    for _ in 0..MOST {
+        let Ok(next) = fs::read_link(&path) else { break };
+        path = folder_of(&path).join(next);
+    }
+    path
 }
 
 fn folder_of(path: &Path) -> &Path {
@@ -104,24 +132,39 @@ struct Temporary {
     file: File,
     path: PathBuf,
     target: Target,
+    /// The target as the caller named it.
+    given: PathBuf,
 }
 
 impl Temporary {
     fn beside(path: &Path) -> Result<Self, WriteError> {
-        let target = Target::resolve(path)?;
+        let (target, given) = (Target::resolve(path)?, path.to_owned());
         match create_hidden(folder_of(&target.path)) {
-            Ok((file, path)) => Ok(Self { file, path, target }),
+            Ok((file, path)) => Ok(Self { file, path, target, given }),
+            Err(error) => Err(WriteError::System { path: given, error }),
+        }
+    }
+
+    /// A file for `path` with contents from a function, flushed to the disk.
+    fn filled(
+        path: &Path,
+        write: impl FnOnce(&mut File) -> io::Result<()>,
+    ) -> Result<Self, WriteError> {
+        let mut temporary = Self::beside(path)?;
+        let Self { file, target, .. } = &mut temporary;
+        let filled = write(file)
+            .and_then(|()| target.permissions.clone().map_or(Ok(()), |p| file.set_permissions(p)))
+            .and_then(|()| file.sync_all());
+        match filled {
+            Ok(()) => Ok(temporary),
             Err(error) => Err(WriteError::System { path: path.to_owned(), error }),
         }
     }
 
-    /// Flushes to the disk, then renames to the target.
-    fn finish(self) -> io::Result<()> {
-        if let Some(permissions) = &self.target.permissions {
-            self.file.set_permissions(permissions.clone())?;
-        }
-        self.file.sync_all()?;
+    /// Renames to the target.
+    fn finish(self) -> Result<(), WriteError> {
         fs::rename(&self.path, &self.target.path)
+            .map_err(|error| WriteError::System { path: self.given.clone(), error })
     }
 }
 
@@ -132,18 +175,47 @@ impl Drop for Temporary {
     }
 }
 
-/// Creates a file that no other thread or process uses. Its name does not contain the target's, which may be as long
-/// as the file system allows.
+/// How the names of temporary files begin and end. They do not contain the target's name, which may be as long as the file
+/// system allows.
+const NAME: (&str, &str) = (".lobe-", ".tmp");
+
+/// Creates a file that no other thread or process uses, and locks it: [`sweep_temporaries`] removes files that nobody has locked.
 fn create_hidden(folder: &Path) -> io::Result<(File, PathBuf)> {
     static COUNT: AtomicU64 = AtomicU64::new(0);
     loop {
         let count = COUNT.fetch_add(1, Ordering::Relaxed);
-        let path = folder.join(format!(".lobe-{}-{count}.tmp", std::process::id()));
+        let path = folder.join(format!("{}{}-{count}{}", NAME.0, std::process::id(), NAME.1));
         match File::create_new(&path) {
-            Ok(file) => return Ok((file, path)),
+            Ok(file) => {
+                // File systems without locks: the file may be swept by a process that starts right now, and its target
+                // is then not written, which is an error.
+                let _ = file.try_lock();
+                // It may have been swept before it was locked.
+                if path.exists() {
+                    return Ok((file, path));
+                }
+            }
             // Left by a killed process with the same process id, or created on another host.
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
             Err(error) => return Err(error),
+        }
+    }
+}
+
+/// Removes the temporary files that killed processes left in a folder, whatever they were for. Their lock ended with them.
+pub fn sweep_temporaries(folder: &Path) {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    for path in entries.map(|entry| entry.path()) {
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        let is_temporary = name
+            .strip_prefix(NAME.0)
+            .and_then(|rest| rest.strip_suffix(NAME.1))
+            .and_then(|numbers| numbers.split_once('-'))
+            .is_some_and(|(id, count)| id.parse::<u32>().is_ok() && count.parse::<u64>().is_ok());
+        let is_file = || fs::symlink_metadata(&path).is_ok_and(|found| found.is_file());
+        if is_temporary && is_file() && File::open(&path).is_ok_and(|file| file.try_lock().is_ok())
+        {
+            let _ = fs::remove_file(&path);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! OpenEXR files: linear radiance, variance and layers, with the metadata as attributes.
 
-use std::io::{Cursor, Write};
+use std::io::Cursor;
 use std::path::Path;
 
 use ::exr::block;
@@ -13,9 +13,9 @@ use ::exr::prelude::{
 };
 use glam::UVec2;
 
-use super::atomic::replace;
+use super::atomic::write_file;
 use super::metadata::SOFTWARE;
-use super::{EncodeError, Encoding, Image, Metadata, Picture, WriteError};
+use super::{EncodeError, Encoding, Image, Metadata, Picture, Plane, WriteError};
 use crate::spectrum::Spectrum;
 
 /// Primaries and white point D65 of Rec. 709 (ITU-R BT.709-6, items 1.3 and 1.4).
@@ -38,6 +38,7 @@ const REC_709: Chromaticities = Chromaticities {
 /// | `depth.Z` | float | [`Layers::depth`](super::Layers::depth), likewise |
 /// | `albedo.R`, `albedo.G`, `albedo.B` | float | [`Layers::albedo`](super::Layers::albedo), likewise |
 /// | `samples.N` | uint | [`Layers::samples`](super::Layers::samples), likewise |
+/// | as they are named | uint | [`Picture::planes`], if the picture is of a part of a render |
 ///
 /// The data window is the picture's window, the display window the whole image. Attributes:
 ///
@@ -49,6 +50,7 @@ const REC_709: Chromaticities = Chromaticities {
 /// | `seed` | string, decimal | [`Metadata::seed`]; the format has no 64-bit integer |
 /// | `samplesPerPixel` | int | [`Metadata::samples_per_pixel`], at most 2³¹ - 1 |
 /// | `renderSeconds` | double | [`Metadata::seconds`] |
+/// | `part` | string, UTF-8 | [`Metadata::part`], if there is one: `samples FIRST to BEHIND of ALL, NON_FINITE not finite`, then a line for each of the identity |
 ///
 /// The same arguments give the same bytes. The file is replaced whole or not at all, as
 /// [`write_file`](super::write_file) says.
@@ -61,18 +63,24 @@ pub fn write_exr(
     metadata: &Metadata,
 ) -> Result<(), WriteError> {
     let path = path.as_ref();
-    let bytes = picture
-        .check()
-        .and_then(|()| encode(picture, metadata))
+    let bytes = exr_bytes(picture, metadata)
         .map_err(|error| WriteError::Picture { path: path.to_owned(), error })?;
-    replace(path, |file| file.write_all(&bytes))
+    write_file(path, &bytes)
 }
 
-fn encode(picture: &Picture, metadata: &Metadata) -> Result<Vec<u8>, EncodeError> {
+/// The bytes of the file that [`write_exr`] writes.
+///
+/// # Errors
+/// When the parts of the picture contradict each other.
+pub fn exr_bytes(picture: &Picture, metadata: &Metadata) -> Result<Vec<u8>, EncodeError> {
+    picture.check()?;
     // ZIP line by line instead of in blocks of 16 lines takes 40 % less time, for files that are 3 to 10 % larger
-    // (500 x 500 pixels with layers: 49 ms and 3.26 MB against 79 ms and 3.16 MB; PIZ 93 ms and 3.48 MB).
+    // (500 x 500 pixels with layers: 49 ms and 3.26 MB against 79 ms and 3.16 MB; PIZ 93 ms and 3.48 MB). But a block
+    // has a cost of its own.
+    const NARROW: u32 = 64;
+    let is_narrow = picture.window.size().x < NARROW;
     let encoding = ::exr::prelude::Encoding {
-        compression: Compression::ZIP1,
+        compression: if is_narrow { Compression::ZIP16 } else { Compression::ZIP1 },
         blocks: Blocks::ScanLines,
         line_order: LineOrder::Increasing,
     };
@@ -107,6 +115,10 @@ fn layer_attributes(picture: &Picture, metadata: &Metadata) -> LayerAttributes {
     let text = |text: &str| Text::from_slice_unchecked(text.as_bytes());
     let samples = i32::try_from(metadata.samples_per_pixel).unwrap_or(i32::MAX);
     let min = picture.window.min;
+    let part = metadata
+        .part
+        .as_ref()
+        .map(|part| (text("part"), AttributeValue::Text(text(&part.to_string()))));
     LayerAttributes {
         layer_position: Vec2(min.x as i32, min.y as i32),
         software_name: Some(text(SOFTWARE)),
@@ -116,7 +128,9 @@ fn layer_attributes(picture: &Picture, metadata: &Metadata) -> LayerAttributes {
             (text("samplesPerPixel"), AttributeValue::I32(samples)),
             (text("renderSeconds"), AttributeValue::F64(metadata.seconds)),
         ]
-        .into(),
+        .into_iter()
+        .chain(part)
+        .collect(),
         ..LayerAttributes::default()
     }
 }
@@ -136,6 +150,9 @@ fn channels(picture: &Picture) -> AnyChannels<FlatSamples> {
         let albedo = ["albedo.R", "albedo.G", "albedo.B"];
         push_bands(&mut list, albedo, &layers.albedo, |a| a.to_array());
         list.push(AnyChannel::new("samples.N", FlatSamples::U32(layers.samples.clone())));
+    }
+    for Plane { name, values } in &picture.planes {
+        list.push(AnyChannel::new(name.as_str(), FlatSamples::U32(values.clone())));
     }
     AnyChannels::sort(list.into())
 }

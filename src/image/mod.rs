@@ -51,14 +51,14 @@ mod png;
 mod read;
 mod window;
 
-pub use atomic::{check_writable, write_file};
+pub use atomic::{check_writable, sweep_temporaries, write_file, write_file_with, write_files};
 pub use decoded::{Encoding, Image};
 pub use display::Display;
 pub use error::{EncodeError, ReadError, WriteError};
 #[cfg(feature = "exr")]
-pub use exr::write_exr;
-pub use metadata::Metadata;
+pub use exr::{exr_bytes, write_exr};
+pub use metadata::{Metadata, ParsePartError, PartMetadata};
 pub use pfm::write_pfm;
-pub use picture::{Layers, Picture};
-pub use png::{encode_png, write_png};
+pub use picture::{Layers, Picture, Plane};
+pub use png::{encode_png, png_bytes, write_png};
 pub use window::Window;

@@ -1,11 +1,10 @@
 //! PFM files (portable float map): three lines of text, then rows of `f32` from the bottom up.
 
-use std::io::Write;
 use std::path::Path;
 
 use glam::UVec2;
 
-use super::atomic::replace;
+use super::atomic::write_file;
 use super::{Encoding, Image, Picture, WriteError};
 use crate::spectrum::Spectrum;
 
@@ -19,7 +18,7 @@ use crate::spectrum::Spectrum;
 pub fn write_pfm(path: impl AsRef<Path>, picture: &Picture) -> Result<(), WriteError> {
     let path = path.as_ref();
     picture.check().map_err(|error| WriteError::Picture { path: path.to_owned(), error })?;
-    replace(path, |file| file.write_all(&encode(picture)))
+    write_file(path, &encode(picture))
 }
 
 /// The bytes of the file. A negative scale says that the numbers are little-endian.

@@ -33,13 +33,25 @@ pub struct Picture {
     pub variance: Option<Vec<Spectrum>>,
     /// The first hits, if the render recorded them.
     pub layers: Option<Layers>,
+    /// What the film keeps, bit by bit, if the picture is of a [part](crate::render::Part) of a render:
+    /// [`Film::from_planes`](crate::film::Film::from_planes) restores it. EXR files hold it.
+    pub planes: Vec<Plane>,
+}
+
+/// A whole number for each pixel.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Plane {
+    /// The name of its channel in files.
+    pub name: String,
+    /// One number for each pixel of the window.
+    pub values: Vec<u32>,
 }
 
 impl Picture {
     /// A whole image with these colours, without variance or layers.
     pub fn new(resolution: UVec2, color: Vec<Spectrum>) -> Self {
         let window = Window::full(resolution);
-        Self { resolution, window, color, variance: None, layers: None }
+        Self { resolution, window, color, variance: None, layers: None, planes: Vec::new() }
     }
 
     /// Standard error of the radiance: the root of the mean variance over all bands of all pixels whose variance is
@@ -77,6 +89,7 @@ impl Picture {
             counts.push(("albedo", albedo.len()));
             counts.push(("samples", samples.len()));
         }
+        counts.extend(self.planes.iter().map(|plane| (&*plane.name, plane.values.len())));
         let area = window.area();
         match counts.into_iter().find(|&(_, count)| count != area) {
             Some((name, count)) => Err(EncodeError(format!(

@@ -1,13 +1,13 @@
 //! PNG files: 8-bit codes for a screen, with the metadata as text chunks.
 
-use std::io::{Cursor, Write};
+use std::io::Cursor;
 use std::path::Path;
 
 use ::image::codecs::png::PngEncoder;
 use ::image::{ExtendedColorType, ImageEncoder, ImageFormat, ImageReader};
 use glam::UVec2;
 
-use super::atomic::replace;
+use super::atomic::write_file;
 use super::metadata::SOFTWARE;
 use super::{Display, EncodeError, Encoding, Image, Metadata, Picture, Window, WriteError};
 use crate::spectrum::Spectrum;
@@ -34,11 +34,9 @@ pub fn write_png(
     metadata: &Metadata,
 ) -> Result<(), WriteError> {
     let path = path.as_ref();
-    let bytes = picture
-        .check()
-        .and_then(|()| encode(picture, display, metadata))
+    let bytes = png_bytes(picture, display, metadata)
         .map_err(|error| WriteError::Picture { path: path.to_owned(), error })?;
-    replace(path, |file| file.write_all(&bytes))
+    write_file(path, &bytes)
 }
 
 /// The bytes of a PNG file with these 8-bit codes, three for each pixel, row by row from the top left; without any text.
@@ -61,11 +59,16 @@ pub fn encode_png(size: UVec2, codes: &[u8]) -> Result<Vec<u8>, EncodeError> {
     Ok(bytes)
 }
 
-fn encode(
+/// The bytes of the file that [`write_png`] writes.
+///
+/// # Errors
+/// When the parts of the picture contradict each other.
+pub fn png_bytes(
     picture: &Picture,
     display: Display,
     metadata: &Metadata,
 ) -> Result<Vec<u8>, EncodeError> {
+    picture.check()?;
     let size = picture.window.size();
     let image = encode_png(size, &display.codes(&picture.color))?;
 

@@ -27,6 +27,11 @@ pub trait Param: Clone + Send + Sync + 'static {
     fn placed(self, _folder: &Path) -> Self {
         self
     }
+
+    /// The file that the value names, if it names one.
+    fn file(&self) -> Option<&Path> {
+        None
+    }
 }
 
 impl Param for bool {
@@ -85,6 +90,10 @@ impl Param for PathBuf {
 
     fn placed(self, folder: &Path) -> Self {
         folder.join(self)
+    }
+
+    fn file(&self) -> Option<&Path> {
+        Some(self)
     }
 }
 

@@ -16,6 +16,7 @@ pub struct Document {
     pub root: Node,
     /// Folders, by [`Mark::source`]. Sources without one use the current directory.
     pub folders: Vec<PathBuf>,
+    files: RefCell<Vec<PathBuf>>,
 }
 
 /// A table of a document. A table that is left out reads as an empty one. It records which keys may be read and which
@@ -37,7 +38,17 @@ static EMPTY: Node = Node { mark: Mark { source: 0, offset: 0 }, value: Value::T
 impl Document {
     /// A tree whose paths are relative to the current directory.
     pub fn new(root: Node) -> Self {
-        Self { root, folders: Vec::new() }
+        Self::in_folders(root, Vec::new())
+    }
+
+    /// A tree whose paths are relative to these folders, by [`Mark::source`].
+    pub fn in_folders(root: Node, folders: Vec<PathBuf>) -> Self {
+        Self { root, folders, files: RefCell::default() }
+    }
+
+    /// The files that have been read from the document so far: all values of keys for paths.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.files.borrow().clone()
     }
 
     /// The root table, with `title` as its name in messages. Its keys have to be among `keys`.
@@ -122,7 +133,11 @@ impl<'a> Table<'a> {
         };
         let folder = self.document.folders.get(node.mark.source);
         match T::from_value(&node.value, key.limits()) {
-            Some(value) => Ok(value.placed(folder.map_or(Path::new(""), |folder| folder))),
+            Some(value) => {
+                let value = value.placed(folder.map_or(Path::new(""), |folder| folder));
+                self.document.files.borrow_mut().extend(value.file().map(Path::to_owned));
+                Ok(value)
+            }
             None => Err(self.unfit(key, node, node.value.to_string(), key.expected())),
         }
     }

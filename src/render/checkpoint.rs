@@ -15,6 +15,8 @@ pub(super) struct State {
     pub counters: Counters,
     /// The samples that are asked for, counted across the sets of a pixel in turn.
     pub samples: Range<u32>,
+    /// Whether they are a part of the render's.
+    pub is_part: bool,
     pub sets: u32,
     pub tile_size: u32,
     /// The samples of the pass.
@@ -35,13 +37,14 @@ pub(super) struct State {
 
 impl State {
     /// A render of these samples that has not begun.
-    pub fn new(film: Film, samples: Range<u32>, sets: u32, tile_size: u32) -> Self {
+    pub fn new(film: Film, samples: Range<u32>, is_part: bool, sets: u32, tile_size: u32) -> Self {
         let tiles = Tiles::new(film.window(), tile_size).count();
         Self {
             film,
             counters: Counters::default(),
             pass: samples.start..samples.start,
             samples,
+            is_part,
             sets,
             tile_size,
             done: vec![true; tiles],
@@ -90,7 +93,7 @@ impl State {
     pub fn rendered(&self, complete: bool) -> Rendered {
         let whole = if self.is_whole() { self.pass.end } else { self.pass.start };
         Rendered {
-            picture: self.film.develop(),
+            picture: if self.is_part { self.film.develop_part() } else { self.film.develop() },
             counters: self.counters,
             samples_per_pixel: whole - self.samples.start,
             complete,

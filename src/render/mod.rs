@@ -110,7 +110,8 @@ pub fn render_with(
     };
     let contents = FilmContents { variance, first_hits: options.layers };
     let film = Film::new(view.film().resolution, view.film().window(), contents)?;
-    let mut state = State::new(film, samples.clone(), sets, options.tile_size);
+    let mut state =
+        State::new(film, samples.clone(), options.part.is_some(), sets, options.tile_size);
     if let Some(bytes) = options.resume {
         state.resume(bytes)?;
     }

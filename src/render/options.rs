@@ -25,8 +25,9 @@ pub struct RenderOptions<'a> {
     /// until none is likely to fit. A pass that takes longer than expected is ended as if it were cancelled. The number of
     /// samples depends on the machine. Ignored on `wasm32-unknown-unknown`, which has no clock.
     pub time: Option<Duration>,
-    /// Which of the settings' samples are taken, for a render in parts whose pictures are
-    /// [added up](crate::film::merge_parts); `None` for all.
+    /// Which of the samples are taken, for a render in parts; `None` for all. The pictures of parts have
+    /// [`planes`](Picture::planes), from which [`Film::from_planes`](crate::film::Film::from_planes) and
+    /// [`Film::merge`](crate::film::Film::merge) make the picture of all samples.
     pub part: Option<Part>,
     /// Whether to keep normal, depth and albedo of the first hits, the number of samples, and the variance of each
     /// pixel, from which [`Picture::standard_error`] is.

@@ -1,7 +1,7 @@
 //! How a [`Pass`] is rendered: its tiles go to as many threads as there are.
 
 use std::num::NonZeroUsize;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError, mpsc};
 
 use super::checkpoint::{Checkpoint, State};
 use super::pass::Pass;
@@ -19,13 +19,21 @@ impl Pass<'_> {
         std::thread::scope(|scope| {
             let mut mine = Worker::new(self, &cancelled)?;
             let mut others = Vec::new();
-            // Where the system gives no more memory or threads, those that there are do the work.
-            while others.len() + 1 < most {
-                let Ok(mut worker) = Worker::new(self, &cancelled) else { break };
-                let work = move || self.work(&mut worker, shared);
-                match std::thread::Builder::new().spawn_scoped(scope, work) {
-                    Ok(other) => others.push(other),
-                    Err(_) => break,
+            // Where the system gives no more memory or threads, those that there are do the work. One starts after the
+            // other, since only a running thread has what it takes from the system.
+            while others.len() + 1 < most && is_available(MEMORY) {
+                let (started, has_started) = mpsc::channel();
+                let work = move || {
+                    let worker = Worker::new(self, &cancelled);
+                    let _ = started.send(worker.is_ok());
+                    worker.into_iter().for_each(|mut worker| self.work(&mut worker, shared));
+                };
+                let Ok(other) = std::thread::Builder::new().spawn_scoped(scope, work) else {
+                    break;
+                };
+                others.push(other);
+                if has_started.recv() != Ok(true) {
+                    break;
                 }
             }
             let threads = others.len() + 1;
@@ -67,6 +75,15 @@ impl Pass<'_> {
             }
         }
     }
+}
+
+/// Address space that a thread may take from the system, beside its worker's buffers: a stack of 2 MiB, and 128 MiB that
+/// glibc reserves for a thread's allocations.
+const MEMORY: usize = 160 << 20;
+
+/// Whether this number of bytes could be allocated.
+pub fn is_available(bytes: usize) -> bool {
+    Vec::<u8>::new().try_reserve_exact(bytes).is_ok()
 }
 
 /// A poisoned lock means that another worker panicked, which ends the scope anyway.

@@ -4,6 +4,7 @@ use glam::{UVec2, Vec2};
 
 use super::pass::Pass;
 use super::samples::Samples;
+use super::threads::is_available;
 use crate::bxdf::BxdfFlags;
 use crate::film::{Film, FilmError};
 use crate::image::Window;
@@ -13,9 +14,6 @@ use crate::sampling::SampleId;
 /// How many samples go through the integrator together: enough for batches to pay, few enough for
 /// rays and hits to stay in the second-level cache.
 const WAVE: usize = 1024;
-
-/// Bytes that have to be free when a worker is made, beside its own: for its thread.
-const SPARE: usize = 16 << 20;
 
 /// How many points estimate a reflectance that has no closed form.
 const RHO_POINTS: usize = 16;
@@ -41,8 +39,8 @@ impl<'a> Worker<'a> {
         let largest = Window { min: UVec2::ZERO, max: size };
         let tile = Film::new(film.resolution, largest, pass.contents)?;
         let shadow_rays = pass.estimator.shadow_rays();
-        let bytes = Wave::bytes(WAVE, shadow_rays) + SPARE;
-        if Vec::<u8>::new().try_reserve_exact(bytes).is_err() {
+        let bytes = Wave::bytes(WAVE, shadow_rays);
+        if !is_available(bytes) {
             return Err(FilmError::TooLarge(size.x, size.y, (bytes >> 20) as u64));
         }
         let wave = Wave::with_capacity(WAVE, shadow_rays, cancelled);

@@ -27,7 +27,7 @@ impl<'a> Source<'a> {
             self.place(overrides::apply(&mut root, text, i + 1))?;
         }
         let folder = self.path.parent().map_or(PathBuf::new(), Path::to_owned);
-        Ok(Document { root, folders: vec![folder] })
+        Ok(Document::in_folders(root, vec![folder]))
     }
 
     /// Converts the mark of a fault to a place in a file or an override.

@@ -8,11 +8,12 @@
 mod assemble;
 mod document;
 mod error;
+mod identity;
 mod overrides;
 mod sections;
 mod toml_tree;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub use error::{Place, SceneFileError, TextProblem};
 pub use sections::SECTIONS;
@@ -35,6 +36,20 @@ pub struct LoadedScene {
     pub settings: RenderSettings,
     /// Load time and warnings about meshes.
     pub report: LoadReport,
+    document: Document,
+}
+
+impl LoadedScene {
+    /// The files that the scene refers to. The scene file is not among them.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.document.files()
+    }
+
+    /// What is rendered, as lines `key = value`: the version of this crate, all values of the file and the overrides, and a
+    /// checksum of each mesh. Renders of equal identity give the same picture for the same samples.
+    pub fn identity(&self) -> Vec<String> {
+        identity::lines(&self.document, &self.scene)
+    }
 }
 
 /// Load time of a scene, and warnings about its meshes.
@@ -162,5 +177,5 @@ fn parse_for(
     let (scene, view, settings, meshes) =
         source.place(assemble::build(description, &document, instruction_set))?;
     let seconds = start.seconds() - scene.build_seconds();
-    Ok(LoadedScene { scene, view, settings, report: LoadReport { seconds, meshes } })
+    Ok(LoadedScene { scene, view, settings, report: LoadReport { seconds, meshes }, document })
 }

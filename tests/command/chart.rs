@@ -226,7 +226,7 @@ fn chart_refuses_arguments_without_effect() {
     for usage in ["--budgets 0", "--seeds 1", "--threads 0", "--add x", "--add x=a.exr,fast"] {
         says(&format!("s.toml {usage}"), "invalid value");
     }
-    says("s.toml --time 0", "expected a number of seconds above 0");
+    says("s.toml --time 0", "expected a time above 0");
     for factor in ["0", "-1", "inf", "nan", "x"] {
         says(&format!("--stability --effort={factor}"), "expected a number above 0");
     }

@@ -6,6 +6,7 @@
 
 mod chart;
 mod folder;
+mod interrupted;
 
 use std::fs;
 

@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::time::Duration;
 
 use clap::{Args, value_parser};
+use lobe::render::Part;
 
 /// The number of threads, for subcommands that render.
 #[derive(Args)]
@@ -26,8 +27,24 @@ impl ThreadsArgument {
     }
 }
 
-/// Parses a time in seconds.
+/// Parses a time above 0: a number of seconds, or with the unit s, min or h.
 pub fn seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse().ok().and_then(|s| Duration::try_from_secs_f64(s).ok());
-    seconds.filter(|time| !time.is_zero()).ok_or("expected a number of seconds above 0".into())
+    let units = [("min", 60.0), ("h", 3600.0), ("s", 1.0), ("", 1.0)];
+    let in_unit = |(unit, size): (&str, f64)| {
+        let number: f64 = text.strip_suffix(unit)?.parse().ok()?;
+        Duration::try_from_secs_f64(size * number).ok()
+    };
+    let time = units.into_iter().find_map(in_unit).filter(|time| !time.is_zero());
+    time.ok_or("expected a time above 0, such as 90, 90s, 1.5min or 2h".into())
+}
+
+/// Parses K/N: one of N parts, counted from 1.
+pub fn part(text: &str) -> Result<Part, String> {
+    let part = || {
+        let (number, count) = text.split_once('/')?;
+        let (number, count) = (number.parse::<u32>().ok()?, count.parse().ok()?);
+        let part = Part { index: number.checked_sub(1)?, count };
+        (number <= count.get()).then_some(part)
+    };
+    part().ok_or("expected K/N, part K of N, such as 1/8".into())
 }

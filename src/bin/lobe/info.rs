@@ -30,7 +30,8 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
-    let LoadedScene { scene, view, settings, report } = arguments.scene.load_for(&arguments.isa)?;
+    let LoadedScene { scene, view, settings, report, .. } =
+        arguments.scene.load_for(&arguments.isa)?;
     let mut summary = Summary::default();
     summary.add("scene", arguments.scene.path.display());
     add_view(&mut summary, &view);

@@ -5,11 +5,13 @@ mod chart;
 mod compare;
 mod help;
 mod info;
+mod interrupt;
 mod output;
 mod progress;
 mod render;
 mod scene;
 mod stability;
+mod state;
 mod summary;
 
 use std::error::Error;
@@ -49,15 +51,16 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let result: Result<(), Box<dyn Error>> = match Arguments::parse().command {
+    let success = |()| ExitCode::SUCCESS;
+    let result: Result<ExitCode, Box<dyn Error>> = match Arguments::parse().command {
         Command::Render(arguments) => render::run(&arguments),
-        Command::Info(arguments) => info::run(&arguments),
-        Command::Compare(arguments) => compare::run(&arguments),
-        Command::Chart(arguments) => chart::run(&arguments),
-        Command::Help(arguments) => help::run(&arguments, Arguments::command()),
+        Command::Info(arguments) => info::run(&arguments).map(success),
+        Command::Compare(arguments) => compare::run(&arguments).map(success),
+        Command::Chart(arguments) => chart::run(&arguments).map(success),
+        Command::Help(arguments) => help::run(&arguments, Arguments::command()).map(success),
     };
     match result {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(error) => {
             // If stderr is closed, the exit code still reports the failure.
             let _ = writeln!(std::io::stderr(), "error: {error}");

@@ -2,9 +2,13 @@
 
 use std::error::Error;
 use std::ffi::OsString;
+use std::fs;
 use std::path::{Path, PathBuf};
 
-use lobe::image::{Display, Metadata, Picture, WriteError, check_writable, write_exr, write_png};
+use lobe::image::{
+    Display, EncodeError, Metadata, Picture, check_writable, exr_bytes, png_bytes, write_file,
+    write_files,
+};
 
 /// An output file. The extension of its name selects the format.
 pub struct Output {
@@ -19,18 +23,22 @@ pub enum Format {
 }
 
 impl Output {
-    /// The files given on the command line, or NAME.png and NAME.exr for a scene NAME.toml. Checks that all of them can
-    /// be written, before anything is rendered.
-    pub fn all(named: &[PathBuf], scene: &Path) -> Result<Vec<Self>, Box<dyn Error>> {
+    /// The files given on the command line, or for a scene NAME.toml the file name NAME with each of these endings. Checks
+    /// that all of them can be written, before anything is rendered.
+    pub fn all(
+        named: &[PathBuf],
+        scene: &Path,
+        endings: &[String],
+    ) -> Result<Vec<Self>, Box<dyn Error>> {
         if !named.is_empty() {
             return named.iter().map(|path| Self::new(path.clone())).collect();
         }
-        let default = |extension| {
+        let default = |ending: &String| {
             let mut name: OsString = scene.file_stem().unwrap_or("scene".as_ref()).to_owned();
-            name.push(extension);
+            name.push(ending);
             Self::new(name.into())
         };
-        [".png", ".exr"].into_iter().map(default).collect()
+        endings.iter().map(default).collect()
     }
 
     fn new(path: PathBuf) -> Result<Self, Box<dyn Error>> {
@@ -49,16 +57,87 @@ impl Output {
         Ok(Self { path, format })
     }
 
-    /// Writes the picture.
-    pub fn write(
+    /// Refuses outputs that are files of the scene, or the same file twice.
+    pub fn check_own(outputs: &[Self], read: &[PathBuf]) -> Result<(), Box<dyn Error>> {
+        let real = |path: &Path| fs::canonicalize(path).ok();
+        let read: Vec<_> = read.iter().filter_map(|path| real(path)).collect();
+        for (index, Self { path, .. }) in outputs.iter().enumerate() {
+            let shown = path.display();
+            if real(path).is_some_and(|path| read.contains(&path)) {
+                let what = format!("cannot write `{shown}`: the scene reads it; give another name");
+                return Err(what.into());
+            }
+            let others = &outputs[..index];
+            if others
+                .iter()
+                .any(|o| o.path == *path || real(path).is_some_and(|p| real(&o.path) == Some(p)))
+            {
+                return Err(format!("`{shown}` is given twice: give each output once").into());
+            }
+        }
+        Ok(())
+    }
+
+    fn bytes(
         &self,
         picture: &Picture,
         display: Display,
         metadata: &Metadata,
-    ) -> Result<(), WriteError> {
+    ) -> Result<Vec<u8>, EncodeError> {
         match self.format {
-            Format::Png => write_png(&self.path, picture, display, metadata),
-            Format::Exr => write_exr(&self.path, picture, metadata),
+            Format::Png => png_bytes(picture, display, metadata),
+            Format::Exr => exr_bytes(picture, metadata),
         }
+    }
+
+    /// Writes the picture to all outputs, or to none if one of them cannot be written.
+    pub fn write_all(
+        outputs: &[Self],
+        picture: &Picture,
+        display: Display,
+        metadata: &Metadata,
+    ) -> Result<(), Box<dyn Error>> {
+        let bytes = outputs.iter().map(|output| output.bytes(picture, display, metadata));
+        let bytes: Vec<_> = bytes.collect::<Result<_, _>>()?;
+        let files = outputs.iter().zip(&bytes).map(|(output, bytes)| (&*output.path, &bytes[..]));
+        Ok(write_files(&files.collect::<Vec<_>>())?)
+    }
+
+    /// [`write_all`](Self::write_all); where that fails, writes what can be written under other names, beside the outputs
+    /// or in the system's folder for temporary files, and tells which.
+    pub fn write_or_keep(
+        outputs: &[Self],
+        picture: &Picture,
+        display: Display,
+        metadata: &Metadata,
+    ) -> Result<(), Box<dyn Error>> {
+        let Err(error) = Self::write_all(outputs, picture, display, metadata) else {
+            return Ok(());
+        };
+        let kept = outputs.iter().filter_map(|output| {
+            let bytes = output.bytes(picture, display, metadata).ok()?;
+            output.other_names().find(|path| write_file(path, &bytes).is_ok())
+        });
+        let kept: Vec<_> = kept.map(|path| format!("`{}`", path.display())).collect();
+        Err(match kept.as_slice() {
+            [] => format!("{error}; the picture could not be kept anywhere else").into(),
+            kept => format!("{error}; the picture is kept in {}", kept.join(" and ")).into(),
+        })
+    }
+
+    /// Names of no files yet, for a picture that cannot be written where it should be.
+    fn other_names(&self) -> impl Iterator<Item = PathBuf> {
+        let name = self.path.file_name().unwrap_or_default();
+        let folders = [self.path.with_file_name(""), std::env::temp_dir()];
+        let names = (0..100).map(move |number| {
+            let mut other = OsString::from(format!("kept-{number}-"));
+            other.push(name);
+            other
+        });
+        let free = folders.map(|folder| {
+            let mut paths = names.clone().map(|name| folder.join(name));
+            paths.find(|path| !path.exists())
+        });
+        free.into_iter().flatten()
     }
 }

@@ -1,0 +1,66 @@
+//! What `lobe render` prints at its end.
+
+use lobe::image::Metadata;
+use lobe::render::Rendered;
+use lobe::scene_file::LoadedScene;
+
+use crate::output::Output;
+use crate::summary::Summary;
+
+/// The summary of a render whose pictures were written.
+pub fn of(
+    loaded: &LoadedScene,
+    rendered: &Rendered,
+    metadata: &Metadata,
+    outputs: &[Output],
+) -> Summary {
+    let LoadedScene { scene, view, report, .. } = loaded;
+    let mut summary = Summary::default();
+    summary.add("scene", &metadata.scene);
+    summary.add_film(view.film());
+    summary.add("samples", format!("{} per pixel", rendered.samples_per_pixel));
+    summary.add_meshes(scene);
+    summary.add("threads", rendered.threads);
+    summary.add("isa", scene.accel().instruction_set());
+    summary.add("load", format!("{:.3} s", report.seconds));
+    summary.add("build", format!("{:.3} s", scene.build_seconds()));
+    summary.add("render", format!("{:.3} s", rendered.seconds));
+    let rays = rendered.counters.rays();
+    summary.add("rays", rays);
+    summary.add("speed", format!("{:.2} Mrays/s", rays as f64 / rendered.seconds / 1e6));
+    add_error(&mut summary, rendered);
+    add_faults(&mut summary, rendered);
+    for output in outputs {
+        summary.add("wrote", output.path.display());
+    }
+    summary
+}
+
+fn add_error(summary: &mut Summary, rendered: &Rendered) {
+    match rendered.picture.standard_error() {
+        Some(error) => {
+            summary.add("error", format!("{error:.2e} standard error of a pixel, in radiance"));
+        }
+        // Each layer costs time, so there is no error without an EXR.
+        None if rendered.picture.layers.is_some() => {
+            summary.add("error", "unknown: the samples are a single set; see sampler.replicates");
+        }
+        None => {}
+    }
+}
+
+fn add_faults(summary: &mut Summary, rendered: &Rendered) {
+    summary.add("non-finite", format!("{} samples", rendered.non_finite));
+    if rendered.counters.rejected > 0 {
+        summary.add("rejected", format!("{} lobe values", rendered.counters.rejected));
+    }
+    if rendered.counters.refused_camera_rays > 0 {
+        summary.add("refused", format!("{} camera rays", rendered.counters.refused_camera_rays));
+    }
+    if !rendered.complete && rendered.empty_pixels > 0 {
+        summary.add(
+            "empty",
+            format!("{} pixels, black: there was no time for them", rendered.empty_pixels),
+        );
+    }
+}

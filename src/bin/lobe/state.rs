@@ -1,0 +1,125 @@
+//! [`State`]: a render on disk, from which `--resume` goes on.
+
+use std::collections::HashMap;
+use std::error::Error;
+use std::fs;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use lobe::image::{WriteError, check_writable, write_file_with};
+use lobe::render::Checkpoint;
+
+/// First line of the file.
+const MAGIC: &str = "a render that lobe can go on with, version 1";
+
+/// The file of a render. It holds [`MAGIC`], lines that tell what is rendered, an empty line, the bytes of a
+/// [`Checkpoint`], and a CRC-32 of all before it.
+pub struct State {
+    pub path: PathBuf,
+    /// What is rendered: lines `key = value`.
+    identity: Vec<String>,
+}
+
+impl State {
+    /// The file beside an output, with another extension. Checks that it can be written.
+    pub fn beside(output: &Path, identity: Vec<String>) -> Result<Self, WriteError> {
+        let path = output.with_extension("state");
+        check_writable(&path)?;
+        Ok(Self { path, identity })
+    }
+
+    /// The bytes of the checkpoint; `None` if there is no file.
+    pub fn load(&self) -> Result<Option<Vec<u8>>, Box<dyn Error>> {
+        let path = self.path.display();
+        let mut bytes = match fs::read(&self.path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(format!("cannot read `{path}`: {error}").into()),
+        };
+        let Some((head, start)) = split(&bytes) else {
+            let advice = "remove it or give the output another name";
+            return Err(
+                format!("`{path}` is not the state of a render, or damaged: {advice}").into()
+            );
+        };
+        if let Some(difference) = difference(&self.identity, head) {
+            let advice = "render with the same settings, or remove the file to start again";
+            return Err(format!("`{path}` is of another render: {difference}; {advice}").into());
+        }
+        bytes.truncate(bytes.len() - SUM);
+        bytes.drain(..start);
+        Ok(Some(bytes))
+    }
+
+    /// Replaces the file, whole or not at all.
+    pub fn save(&self, checkpoint: &Checkpoint) -> Result<(), WriteError> {
+        write_file_with(&self.path, |file| {
+            let mut to = Summed { to: BufWriter::new(file), sum: crc32fast::Hasher::new() };
+            to.write_all(format!("{MAGIC}\n{}\n\n", self.identity.join("\n")).as_bytes())?;
+            checkpoint.write(&mut to)?;
+            let Summed { mut to, sum } = to;
+            to.write_all(&sum.finalize().to_le_bytes())?;
+            to.flush()
+        })
+    }
+
+    /// Removes the file of a render that is complete.
+    pub fn remove(&self) {
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+/// Bytes of the checksum.
+const SUM: usize = 4;
+
+/// The lines of a sound file, and where its checkpoint begins.
+fn split(bytes: &[u8]) -> Option<(&str, usize)> {
+    let (all, sum) = bytes.split_last_chunk::<SUM>()?;
+    let rest = all.strip_prefix(MAGIC.as_bytes())?.strip_prefix(b"\n")?;
+    let length = rest.windows(2).position(|pair| pair == b"\n\n")?;
+    let is_sound = crc32fast::hash(all) == u32::from_le_bytes(*sum);
+    let head = str::from_utf8(&rest[..length]).ok()?;
+    is_sound.then_some((head, MAGIC.len() + 1 + length + 2))
+}
+
+/// The first difference between two renders, in words.
+pub fn difference(here: &[String], there: &str) -> Option<String> {
+    if here.iter().map(String::as_str).eq(there.lines()) {
+        return None;
+    }
+    fn parts(line: &str) -> (&str, &str) {
+        line.split_once(" = ").unwrap_or((line, ""))
+    }
+    let values: HashMap<_, _> = there.lines().map(parts).collect();
+    let own: HashMap<_, _> = here.iter().map(|line| parts(line)).collect();
+    for (key, value) in here.iter().map(|line| parts(line)) {
+        match values.get(key) {
+            Some(other) if *other == value => {}
+            Some(other) => return Some(format!("{key} is {other} there and {value} here")),
+            None => return Some(format!("{key} is {value} here and left out there")),
+        }
+    }
+    let more = there.lines().map(parts).find(|(key, _)| !own.contains_key(key));
+    Some(match more {
+        Some((key, value)) => format!("{key} is {value} there and left out here"),
+        None => "its values are in another order".to_owned(),
+    })
+}
+
+/// A writer that keeps a checksum of what is written.
+struct Summed<W> {
+    to: W,
+    sum: crc32fast::Hasher,
+}
+
+impl<W: Write> Write for Summed<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.to.write(bytes)?;
+        self.sum.update(&bytes[..written]);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.to.flush()
+    }
+}

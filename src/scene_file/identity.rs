@@ -1,0 +1,44 @@
+//! What tells one scene from another, in lines.
+
+use glam::{Vec2, Vec3};
+
+use crate::params::{Document, Node, Value};
+use crate::scene::Scene;
+use crate::shape::TriangleMesh;
+
+/// Version, values and meshes: see [`LoadedScene::identity`](super::LoadedScene::identity).
+pub fn lines(document: &Document, scene: &Scene) -> Vec<String> {
+    let mut lines = vec![concat!("lobe = ", env!("CARGO_PKG_VERSION")).to_owned()];
+    push_values("", &document.root, &mut lines);
+    for (name, mesh) in scene.shapes() {
+        let (triangles, sum) = (mesh.indices.len(), checksum(mesh));
+        lines.push(format!("mesh of shape {name:?} = {triangles} triangles, checksum {sum:08x}"));
+    }
+    lines
+}
+
+/// A line for each value that is not a table, in the order of the document.
+fn push_values(name: &str, node: &Node, lines: &mut Vec<String>) {
+    let Value::Table(entries) = &node.value else {
+        lines.push(format!("{name} = {}", node.value));
+        return;
+    };
+    for entry in entries {
+        let key = entry.key.escape_debug();
+        let name = if name.is_empty() { key.to_string() } else { format!("{name}.{key}") };
+        push_values(&name, &entry.node, lines);
+    }
+}
+
+/// CRC-32 of all that a mesh consists of.
+fn checksum(mesh: &TriangleMesh) -> u32 {
+    let TriangleMesh { positions, normals, uvs, indices } = mesh;
+    let mut sum = crc32fast::Hasher::new();
+    let mut add = |numbers: &[[u8; 4]]| sum.update(numbers.as_flattened());
+    let of_vec3 = |v: &Vec3| v.to_array().map(f32::to_le_bytes);
+    positions.iter().for_each(|p| add(&of_vec3(p)));
+    normals.iter().for_each(|n| add(&of_vec3(n)));
+    uvs.iter().for_each(|uv: &Vec2| add(&uv.to_array().map(f32::to_le_bytes)));
+    indices.iter().for_each(|triangle| add(&triangle.map(u32::to_le_bytes)));
+    sum.finalize()
+}

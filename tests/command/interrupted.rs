@@ -1,0 +1,250 @@
+//! Renders that are interrupted, killed, resumed, or find no space: nothing that was there is lost.
+
+use std::fs;
+use std::process::{Child, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+use lobe::image::Image;
+
+use crate::folder::{Folder, value};
+
+/// A generator of moments: a multiplicative sequence, different for each seed.
+struct Moments(u64);
+
+impl Moments {
+    /// From 0 to `most` milliseconds.
+    fn next(&mut self, most: f64) -> Duration {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        Duration::from_secs_f64(most * (self.0 >> 40) as f64 / (1 << 24) as f64 / 1000.0)
+    }
+}
+
+/// The bytes of an EXR file without the time that it took.
+fn exr(folder: &Folder, name: &str) -> Vec<u8> {
+    let mut bytes = fs::read(folder.0.join(name)).unwrap();
+    let key = b"renderSeconds\0double\0";
+    let at = bytes.windows(key.len()).position(|window| window == key).unwrap() + key.len();
+    bytes[at + 4..at + 12].fill(0);
+    bytes
+}
+
+fn start(folder: &Folder, arguments: &str) -> Child {
+    let mut command = folder.command(arguments.split_whitespace());
+    command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+fn signal(child: &Child, name: &str) {
+    let id = child.id().to_string();
+    assert!(std::process::Command::new("kill").args([name, &id]).status().unwrap().success());
+}
+
+/// Waits until a file is there; fails after a minute.
+fn wait_for(folder: &Folder, name: &str) {
+    let start = Instant::now();
+    while !folder.0.join(name).exists() {
+        assert!(start.elapsed() < Duration::from_secs(60), "no {name} after a minute");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+fn end(child: Child) -> (ExitStatus, String) {
+    let output = child.wait_with_output().unwrap();
+    (output.status, String::from_utf8(output.stderr).unwrap())
+}
+
+/// Seen to fail without the handler: no picture, and the process ended by the signal.
+#[test]
+fn the_first_signal_writes_what_there_is() {
+    for name in ["-INT", "-TERM"] {
+        let folder = Folder::new(&format!("signal{name}"));
+        let child = start(&folder, "render s.toml --spp 100000000 --resume --save-every 0.001");
+        wait_for(&folder, "s.state");
+        signal(&child, name);
+        let (status, said) = end(child);
+        assert_eq!(status.code(), Some(130), "{said}");
+        assert!(said.starts_with("interrupted after ") && said.ends_with("goes on\n"), "{said}");
+        assert_eq!(folder.files(), ["s.exr", "s.png", "s.state", "s.toml", "wall.obj"]);
+        let samples = |said: &str| said.split(' ').nth(2).unwrap().parse::<u64>().unwrap();
+        // It goes on from there, and a render without a state can be interrupted, too.
+        let child = start(&folder, "render s.toml --spp 100000000 --resume");
+        std::thread::sleep(Duration::from_millis(300));
+        signal(&child, name);
+        assert!(samples(&end(child).1) >= samples(&said));
+        let child = start(&folder, "render s.toml --time 100000 -o t.exr --quiet");
+        std::thread::sleep(Duration::from_millis(300));
+        signal(&child, name);
+        let (status, said) = end(child);
+        assert_eq!(status.code(), Some(130), "{said}");
+        assert!(said.ends_with("; with --resume, it could go on\n"), "{said}");
+        assert!(folder.0.join("t.exr").exists());
+    }
+}
+
+/// Killed at random moments and resumed: the same bytes as without. `kills` in all, over as many renders as that takes.
+fn kill_and_resume(test: &str, kills: usize, most: f64) {
+    let folder = Folder::new(test);
+    let settings = "--spp 300 --set sampler.type=\"sobol\" --set film.resolution=[60,40]";
+    folder.prints(&format!("render s.toml {settings} -o whole.exr -o whole.png --quiet"));
+    let (whole, shown) =
+        (exr(&folder, "whole.exr"), Image::read(folder.0.join("whole.png")).unwrap());
+    let (mut moments, mut killed, mut resumed) = (Moments(1), 0, 0);
+    while killed < kills {
+        let mut child = start(
+            &folder,
+            &format!("render s.toml {settings} -o a.exr -o a.png --resume --save-every 0.001"),
+        );
+        std::thread::sleep(moments.next(most));
+        resumed += usize::from(folder.0.join("a.state").exists());
+        if child.try_wait().unwrap().is_none() {
+            child.kill().unwrap();
+            killed += 1;
+        }
+        let (status, said) = end(child);
+        if status.success() {
+            assert_eq!(exr(&folder, "a.exr"), whole, "after {killed} kills");
+            assert!(Image::read(folder.0.join("a.png")).unwrap() == shown, "after {killed} kills");
+            let files = ["a.exr", "a.png", "s.toml", "wall.obj", "whole.exr", "whole.png"];
+            assert_eq!(folder.files(), files, "after {killed} kills");
+            fs::remove_file(folder.0.join("a.exr")).unwrap();
+        } else {
+            assert!(said.is_empty(), "after {killed} kills: {said}");
+        }
+    }
+    assert!(resumed > 0, "no render was killed after it had been stored");
+}
+
+/// Seen to fail with the marks of tiles not stored.
+#[test]
+fn a_killed_render_goes_on() {
+    kill_and_resume("killed", 12, 150.0);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn a_killed_render_goes_on_200_times() {
+    kill_and_resume("killed-200", 200, 250.0);
+}
+
+/// The difference is named. Seen to fail without the comparison: the render went on with other samples.
+#[test]
+fn a_state_of_another_render_is_refused() {
+    let folder = Folder::new("other-state");
+    let child = start(&folder, "render s.toml --spp 100000000 --resume --save-every 0.001");
+    wait_for(&folder, "s.state");
+    signal(&child, "-INT");
+    assert_eq!(end(child).0.code(), Some(130));
+    let advice = "render with the same settings, or remove the file to start again";
+    for (arguments, difference) in [
+        ("--spp 99", "samples per pixel is 100000000 there and 99 here"),
+        ("--spp 100000000 --seed 4", "seed is 0 there and 4 here"),
+        ("--spp 100000000 --no-layers", "layers is true there and false here"),
+        (
+            "--spp 100000000 --set camera.eye=[0,1,-4]",
+            "camera.eye is [0, 1, -3] there and [0, 1, -4] here",
+        ),
+        ("--spp 100000000 --set camera.fov=50", "camera.fov is 50 here and left out there"),
+    ] {
+        folder.fails(
+            &format!("render s.toml --resume {arguments}"),
+            &format!("`s.state` is of another render: {difference}; {advice}"),
+        );
+    }
+    let obj = fs::read_to_string(folder.0.join("wall.obj")).unwrap();
+    folder.write("wall.obj", &obj.replace("v 2 2 0", "v 2 2 0.5"));
+    let said = folder.run("render s.toml --resume --spp 100000000");
+    let said = String::from_utf8(said.stderr).unwrap();
+    assert!(
+        said.contains("another render: mesh of shape \"wall\" is 3 triangles, checksum "),
+        "{said}"
+    );
+
+    // A damaged file, and one that is something else.
+    folder.write("wall.obj", &obj);
+    let mut bytes = fs::read(folder.0.join("s.state")).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(folder.0.join("s.state"), &bytes).unwrap();
+    let damaged = "`s.state` is not the state of a render, or damaged: remove it or give the output another name";
+    folder.fails("render s.toml --resume --spp 100000000", damaged);
+    folder.write("s.state", "a file of the user's");
+    folder.fails("render s.toml --resume", damaged);
+    assert_eq!(fs::read(folder.0.join("s.state")).unwrap(), b"a file of the user's");
+}
+
+/// Under a limit for the size of files, as on a full disk. Seen to fail with both files written one after the other: the
+/// PNG was new and the EXR old; and with the picture dropped.
+#[test]
+fn a_full_disk_loses_nothing() {
+    let folder = Folder::new("full");
+    folder.prints("render s.toml --quiet");
+    let (old_exr, old_png) = (exr(&folder, "s.exr"), fs::read(folder.0.join("s.png")).unwrap());
+    // In units of 512 bytes: enough for the PNG, too little for the EXR.
+    let script = "trap '' XFSZ; ulimit -f 3; exec \"$0\" render s.toml --seed 9 --quiet";
+    let mut command = std::process::Command::new("sh");
+    command.current_dir(&folder.0).args(["-c", script, env!("CARGO_BIN_EXE_lobe")]);
+    let output = command.env("TMPDIR", &folder.0).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert_eq!(
+        said,
+        "error: cannot write `s.exr`: File too large (os error 27); free some space or choose another disk; \
+         the picture is kept in `kept-0-s.png`\n"
+    );
+    assert!(exr(&folder, "s.exr") == old_exr);
+    assert_eq!(fs::read(folder.0.join("s.png")).unwrap(), old_png);
+    assert_eq!(folder.files(), ["kept-0-s.png", "s.exr", "s.png", "s.toml", "wall.obj"]);
+    assert_ne!(fs::read(folder.0.join("kept-0-s.png")).unwrap(), old_png);
+}
+
+/// What killed processes left goes, and nothing else. Seen to fail without the sweep, and with files swept that a living
+/// process has locked.
+#[test]
+fn temporaries_of_killed_processes_are_swept() {
+    let folder = Folder::new("swept");
+    folder.write(".lobe-123-4.tmp", "left");
+    folder.write(".lobe-mine.tmp", "a file of the user's");
+    folder.write(".lobe-5-6.tmp", "in use");
+    let used = fs::File::open(folder.0.join(".lobe-5-6.tmp")).unwrap();
+    used.lock().unwrap();
+    folder.prints("render s.toml -o a.png --quiet");
+    let files = [".lobe-5-6.tmp", ".lobe-mine.tmp", "a.png", "s.toml", "wall.obj"];
+    assert_eq!(folder.files(), files);
+}
+
+/// Seen to fail without these checks: the scene's file was replaced by a picture.
+#[test]
+fn outputs_are_not_the_scenes_own_files() {
+    let folder = Folder::new("own");
+    let scene = fs::read_to_string(folder.0.join("s.toml")).unwrap();
+    fs::rename(folder.0.join("wall.obj"), folder.0.join("wall.png")).unwrap();
+    folder.write("s.png", &scene.replace("wall.obj", "wall.png"));
+    let own = |name: &str| format!("cannot write `{name}`: the scene reads it; give another name");
+    folder.fails("render s.png -o ./wall.png", &own("./wall.png"));
+    folder.fails("render s.png -o a.exr -o s.png", &own("s.png"));
+    folder.fails("render s.png -o a.exr -o a.exr", "`a.exr` is given twice: give each output once");
+    // A link to no file yet leads there, and stays a link.
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("real.png", folder.0.join("link.png")).unwrap();
+        folder.prints("render s.png -o link.png --quiet");
+        assert!(fs::symlink_metadata(folder.0.join("link.png")).unwrap().is_symlink());
+        assert!(fs::symlink_metadata(folder.0.join("real.png")).unwrap().is_file());
+    }
+}
+
+/// A thousand threads where memory allows few: those that there are render. Seen to abort with threads that start without
+/// asking for memory, and with all starting at once.
+#[test]
+fn threads_are_as_many_as_memory_allows() {
+    let folder = Folder::new("threads");
+    let script = "ulimit -v 400000; exec \"$0\" render s.toml --threads 1000 --set film.resolution=[1000,600]";
+    let mut command = std::process::Command::new("sh");
+    command.current_dir(&folder.0).args(["-c", script, env!("CARGO_BIN_EXE_lobe")]);
+    let output = command.output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{said}");
+    let summary = String::from_utf8(output.stdout).unwrap();
+    let threads: u32 = value(&summary, "threads").parse().unwrap();
+    assert!((1..1000).contains(&threads), "{summary}");
+}
