@@ -129,11 +129,14 @@ impl<'a> Blocks<'a> {
         let output = pixels * channels.bytes_per_pixel as u128;
         let input = block.data.len() as u128;
         let largest = self.size.0 as u128 * self.size.1 as u128 * channels.bytes_per_pixel as u128;
-        // A block that would not shrink is not compressed.
         if input > largest {
             return Err("it is not a readable EXR file: a block of pixels is too large".into());
         }
         let plain = input + 6 * output;
+        // A block that would not shrink is not compressed.
+        if input == output {
+            return Ok(plain);
+        }
         Ok(match self.header.compression {
             Compression::Uncompressed => plain,
             Compression::RLE => plain + 2 * 64 * input,
