@@ -7,6 +7,24 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
+    /// The file does not exist.
+    #[error("cannot read `{}`: there is no such file", .path.display())]
+    Missing {
+        /// The path as it was given.
+        path: PathBuf,
+    },
+    /// The path names a folder.
+    #[error("cannot read `{}`: it is a folder; give the name of a file in it", .path.display())]
+    Folder {
+        /// The path as it was given.
+        path: PathBuf,
+    },
+    /// The path names a device, a pipe or a socket, which have no size and may never end.
+    #[error("cannot read `{}`: it is not an ordinary file; copy its contents to one first", .path.display())]
+    NotAFile {
+        /// The path as it was given.
+        path: PathBuf,
+    },
     /// The operating system refused.
     #[error("cannot read `{}`: {error}", .path.display())]
     System {
@@ -27,7 +45,23 @@ pub enum ReadError {
         /// The path as it was given.
         path: PathBuf,
     },
-    /// The contents are not of the format that the name says, or have no colours.
+    /// Reading would take more memory than the limit, by what the file's size or its header says.
+    #[error("cannot read `{}`: {reason}", .path.display())]
+    AboveLimit {
+        /// The path as it was given.
+        path: PathBuf,
+        /// What takes how much, and the limit.
+        reason: String,
+    },
+    /// Reading takes more memory than there is.
+    #[error("cannot read `{}`: {} MiB of memory are not available", .path.display(), .bytes.div_ceil(1 << 20))]
+    OutOfMemory {
+        /// The path as it was given.
+        path: PathBuf,
+        /// Bytes that were asked for.
+        bytes: u64,
+    },
+    /// The contents are not of the format that the name says, are incomplete, or have no colours.
     #[error("cannot read `{}`: {reason}", .path.display())]
     Contents {
         /// The path as it was given.

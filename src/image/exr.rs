@@ -1,22 +1,18 @@
-//! OpenEXR files: linear radiance, variance and layers, with the metadata as attributes.
+//! OpenEXR files written: linear radiance, variance and layers, with the metadata as attributes.
 
 use std::io::Cursor;
 use std::path::Path;
 
-use ::exr::block;
 use ::exr::meta::attribute::Chromaticities;
-use ::exr::meta::header::Header;
 use ::exr::prelude::{
     AnyChannel, AnyChannels, AttributeValue, Blocks, Compression, FlatSamples, ImageAttributes,
-    IntegerBounds, Layer, LayerAttributes, LineOrder, ReadChannels, ReadLayers, Text, Vec2,
-    WritableImage,
+    IntegerBounds, Layer, LayerAttributes, LineOrder, Text, Vec2, WritableImage,
 };
 use glam::UVec2;
 
 use super::atomic::write_file;
 use super::metadata::SOFTWARE;
-use super::{EncodeError, Encoding, Image, Metadata, Picture, Plane, WriteError};
-use crate::spectrum::Spectrum;
+use super::{EncodeError, Metadata, Picture, Plane, WriteError};
 
 /// Primaries and white point D65 of Rec. 709 (ITU-R BT.709-6, items 1.3 and 1.4).
 const REC_709: Chromaticities = Chromaticities {
@@ -192,47 +188,4 @@ fn sort_attributes(file: &mut [u8]) -> Option<()> {
     let sorted = attributes.concat();
     file[START..START + sorted.len()].copy_from_slice(&sorted);
     Some(())
-}
-
-/// Decodes the first layer that has colours, and its variance.
-pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
-    let unreadable = |error: ::exr::error::Error| format!("it is not a readable EXR file: {error}");
-    let chunks = block::read(Cursor::new(bytes), false).map_err(unreadable)?;
-    // Headers come first: a file without colours is refused before its pixels are decoded.
-    let (index, colors) = chunks
-        .headers()
-        .iter()
-        .enumerate()
-        .find_map(|(index, header)| Some((index, color_channels(header)?)))
-        .ok_or("it has no channels R, G and B, nor Y")?;
-    let file = ::exr::prelude::read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .all_layers()
-        .all_attributes()
-        .non_parallel()
-        .from_chunks(chunks)
-        .map_err(unreadable)?;
-    let layer = file.layer_data.get(index).ok_or("its layer with colours is missing")?;
-    let pixels = bands(&layer.channel_data, colors).ok_or("its channels of colours are missing")?;
-    let variance = bands(&layer.channel_data, ["variance.R", "variance.G", "variance.B"]);
-    let size = UVec2::new(layer.size.0 as u32, layer.size.1 as u32);
-    Ok(Image { size, pixels, variance, encoding: Encoding::Linear })
-}
-
-/// Names of the channels that hold a layer's colours.
-fn color_channels(header: &Header) -> Option<[&'static str; 3]> {
-    let has = |name: &&str| header.channels.list.iter().any(|channel| channel.name == **name);
-    [["R", "G", "B"], ["Y"; 3]].into_iter().find(|names| names.iter().all(has))
-}
-
-/// The samples of three channels, pixel by pixel; `None` if one does not exist.
-fn bands(channels: &AnyChannels<FlatSamples>, names: [&str; 3]) -> Option<Vec<Spectrum>> {
-    let samples = |name: &str| {
-        let channel = channels.list.iter().find(|channel| channel.name == *name)?;
-        Some(channel.sample_data.values_as_f32().collect::<Vec<f32>>())
-    };
-    let [r, g, b] = [samples(names[0])?, samples(names[1])?, samples(names[2])?];
-    Some(r.iter().zip(&g).zip(&b).map(|((&r, &g), &b)| Spectrum::new(r, g, b)).collect())
 }

@@ -11,7 +11,8 @@
 //! | PNG | [`write_png`], [`encode_png`] | [`Image::read`] | 8-bit codes of a [`Display`] curve; 16 bits are read, too |
 //! | PFM | [`write_pfm`] | [`Image::read`] | linear `f32`, colour alone |
 //!
-//! Files are written whole or not at all: see [`write_file`]. Colours are linear Rec. 709 with white point D65.
+//! Files are written whole or not at all: see [`write_file`]. Reading stays within a limit of memory and refuses files that
+//! are incomplete; [`ImageFile`] reads the header alone. Colours are linear Rec. 709 with white point D65.
 //!
 //! ```
 //! # #[cfg(feature = "exr")] {
@@ -44,6 +45,11 @@ mod display;
 mod error;
 #[cfg(feature = "exr")]
 mod exr;
+#[cfg(feature = "exr")]
+mod exr_blocks;
+#[cfg(feature = "exr")]
+mod exr_read;
+mod memory;
 mod metadata;
 mod pfm;
 mod picture;
@@ -61,4 +67,5 @@ pub use metadata::{Metadata, ParsePartError, PartMetadata};
 pub use pfm::write_pfm;
 pub use picture::{Layers, Picture, Plane};
 pub use png::{encode_png, png_bytes, write_png};
+pub use read::ImageFile;
 pub use window::Window;

@@ -1,10 +1,12 @@
 //! PFM files (portable float map): three lines of text, then rows of `f32` from the bottom up.
 
+use std::io::{BufRead, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use glam::UVec2;
 
 use super::atomic::write_file;
+use super::memory::{PIXEL, Refusal, area, check, filled};
 use super::{Encoding, Image, Picture, WriteError};
 use crate::spectrum::Spectrum;
 
@@ -39,9 +41,31 @@ struct Header {
     is_little_endian: bool,
 }
 
+/// The longest header that is read, in bytes.
+const LONGEST: u64 = 256;
+
 impl Header {
-    /// Reads the header and moves `bytes` to the pixels.
-    fn read(bytes: &mut &[u8]) -> Result<Self, String> {
+    /// Reads the header, and moves `source` to the pixels once it is known that they stay within the limit.
+    fn read(source: &mut (impl BufRead + Seek), length: u64, limit: u64) -> Result<Self, Refusal> {
+        let mut start = Vec::new();
+        source.take(LONGEST).read_to_end(&mut start).map_err(|error| error.to_string())?;
+        let mut rest = &start[..];
+        let header = Self::parse(&mut rest)?;
+        let text = (start.len() - rest.len()) as u64;
+        let (size, row) = (header.size, header.row());
+        // In 128 bits: sides have up to 31 each.
+        let (expected, found) = (u128::from(row) * u128::from(size.y), length - text);
+        if u128::from(found) != expected {
+            let UVec2 { x, y } = size;
+            return Err(format!("{x} x {y} pixels need {expected} bytes, not {found}").into());
+        }
+        check(size, PIXEL * u128::from(area(size)) + u128::from(row), limit)?;
+        source.seek(SeekFrom::Start(text)).map_err(|error| error.to_string())?;
+        Ok(header)
+    }
+
+    /// Moves `bytes` behind the header.
+    fn parse(bytes: &mut &[u8]) -> Result<Self, String> {
         let mut words = [""; 4];
         for word in &mut words {
             *word = next_word(bytes).ok_or("it ends within its header")?;
@@ -56,40 +80,59 @@ impl Header {
                 ));
             }
         };
-        let side = |word: &str| word.parse::<u32>().ok().filter(|&side| side > 0);
+        // As in PNG files: so no sum of a side and a margin leaves 32 bits.
+        let is_side = |side: &u32| (1..=i32::MAX as u32).contains(side);
+        let side = |word: &str| word.parse::<u32>().ok().filter(is_side);
         let (Some(width), Some(height)) = (side(columns), side(rows)) else {
             return Err(format!(
-                "its size is `{columns} {rows}`, expected columns and rows, both at least 1"
+                "its size is `{columns} {rows}`, expected columns and rows, both from 1 to {}",
+                i32::MAX
             ));
         };
         let scale: f32 =
             scale.parse().map_err(|_| format!("its scale is `{scale}`, expected a number"))?;
         Ok(Self { bands, size: UVec2::new(width, height), is_little_endian: scale < 0.0 })
     }
+
+    /// Bytes of a row.
+    fn row(&self) -> u64 {
+        4 * self.bands as u64 * u64::from(self.size.x)
+    }
+}
+
+/// Columns and rows.
+pub(super) fn size(
+    mut source: impl BufRead + Seek,
+    length: u64,
+    limit: u64,
+) -> Result<UVec2, Refusal> {
+    Ok(Header::read(&mut source, length, limit)?.size)
 }
 
 /// Decodes a PFM file. The magnitude of the scale, a unit of radiance that few programs write, is ignored.
-pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
-    let mut rest = bytes;
-    let Header { bands, size, is_little_endian } = Header::read(&mut rest)?;
-    // In 128 bits: sides have up to 32 each.
-    let expected = 4 * u128::from(size.x) * u128::from(size.y) * bands as u128;
-    let found = rest.len();
-    if found as u128 != expected {
-        return Err(format!("{} x {} pixels need {expected} bytes, not {found}", size.x, size.y));
-    }
-    let value = |bytes: &[u8; 4]| match is_little_endian {
+pub(super) fn decode(
+    mut source: impl BufRead + Seek,
+    length: u64,
+    limit: u64,
+) -> Result<Image, Refusal> {
+    let header = Header::read(&mut source, length, limit)?;
+    let mut bytes = filled(header.row(), 0_u8)?;
+    let mut pixels = filled(area(header.size), Spectrum::BLACK)?;
+    let value = |bytes: &[u8; 4]| match header.is_little_endian {
         true => f32::from_le_bytes(*bytes),
         false => f32::from_be_bytes(*bytes),
     };
-    let values: Vec<f32> = rest.as_chunks::<4>().0.iter().map(value).collect();
-    let pixel = |of: &[f32]| match of {
-        [r, g, b] => Spectrum::new(*r, *g, *b),
-        _ => Spectrum::splat(of[0]),
-    };
-    let row = |row: &[f32]| row.chunks(bands).map(pixel).collect::<Vec<_>>();
-    let pixels = values.chunks(size.x as usize * bands).rev().flat_map(row).collect();
-    Ok(Image { size, pixels, variance: None, encoding: Encoding::Linear })
+    for row in pixels.chunks_exact_mut(header.size.x as usize).rev() {
+        source.read_exact(&mut bytes).map_err(|error| error.to_string())?;
+        let found = bytes.as_chunks::<4>().0.chunks_exact(header.bands);
+        for (pixel, bands) in row.iter_mut().zip(found) {
+            *pixel = match bands {
+                [r, g, b] => Spectrum::new(value(r), value(g), value(b)),
+                _ => Spectrum::splat(value(&bands[0])),
+            };
+        }
+    }
+    Ok(Image { size: header.size, pixels, variance: None, encoding: Encoding::Linear })
 }
 
 /// Takes the next word, and the one byte of white space after it.

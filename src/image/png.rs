@@ -1,13 +1,14 @@
 //! PNG files: 8-bit codes for a screen, with the metadata as text chunks.
 
-use std::io::Cursor;
+use std::io::{BufRead, Seek};
 use std::path::Path;
 
-use ::image::codecs::png::PngEncoder;
-use ::image::{ExtendedColorType, ImageEncoder, ImageFormat, ImageReader};
+use ::image::codecs::png::{PngDecoder, PngEncoder};
+use ::image::{ExtendedColorType, ImageDecoder, ImageEncoder, ImageError, Limits};
 use glam::UVec2;
 
 use super::atomic::write_file;
+use super::memory::{PIXEL, Refusal, area, check, filled, reserve};
 use super::metadata::SOFTWARE;
 use super::{Display, EncodeError, Encoding, Image, Metadata, Picture, Window, WriteError};
 use crate::spectrum::Spectrum;
@@ -130,13 +131,64 @@ fn push_chunk(bytes: &mut Vec<u8>, kind: &[u8; 4], data: &[u8]) {
     bytes.extend_from_slice(&crc.to_be_bytes());
 }
 
+/// Most bytes that text, colour profiles and other things beside the pixels may take.
+const BESIDE: u64 = 64 << 20;
+
+/// Reads what stands before the pixels, which stay within the limit.
+fn open<R: BufRead + Seek>(mut source: R, limit: u64) -> Result<PngDecoder<R>, Refusal> {
+    // The decoder counts a row together with what stands beside the pixels, and a header has the width at byte 16.
+    let mut head = [0; 20];
+    let width = match source.read_exact(&mut head) {
+        Ok(()) => u32::from_be_bytes([head[16], head[17], head[18], head[19]]),
+        Err(_) => 0,
+    };
+    source.rewind().map_err(|error| error.to_string())?;
+    let mut limits = Limits::no_limits();
+    limits.max_alloc = Some(BESIDE + 8 * u64::from(width));
+    let decoder = PngDecoder::with_limits(source, limits).map_err(unreadable)?;
+    let (width, height) = decoder.dimensions();
+    let size = UVec2::new(width, height);
+    // Codes of the whole image, its pixels, and rows that are being decoded.
+    let rows = 64 * u128::from(width);
+    let needed = u128::from(decoder.total_bytes()) + PIXEL * u128::from(area(size)) + rows;
+    check(size, needed, limit)?;
+    Ok(decoder)
+}
+
+fn unreadable(error: ImageError) -> String {
+    format!("it is not a PNG file: {error}")
+}
+
+/// Columns and rows.
+pub(super) fn size(source: impl BufRead + Seek, limit: u64) -> Result<UVec2, Refusal> {
+    let (width, height) = open(source, limit)?.dimensions();
+    Ok(UVec2::new(width, height))
+}
+
 /// Decodes a PNG file to codes from 0 to 1.
-pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
-    let image = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png)
-        .decode()
-        .map_err(|error| format!("it is not a PNG file: {error}"))?
-        .into_rgb32f();
-    let size = UVec2::new(image.width(), image.height());
-    let pixels = image.pixels().map(|pixel| Spectrum::from(pixel.0)).collect();
+pub(super) fn decode(source: impl BufRead + Seek, limit: u64) -> Result<Image, Refusal> {
+    let decoder = open(source, limit)?;
+    let (width, height) = decoder.dimensions();
+    let size = UVec2::new(width, height);
+    let color = decoder.color_type();
+    let mut codes = filled(decoder.total_bytes(), 0_u8)?;
+    decoder.read_image(&mut codes).map_err(unreadable)?;
+
+    let channels = usize::from(color.channel_count());
+    let bytes_per_code = usize::from(color.bytes_per_pixel()) / channels;
+    let value = |code: &[u8]| match *code {
+        [high, low] => f32::from(u16::from_ne_bytes([high, low])) / f32::from(u16::MAX),
+        _ => f32::from(code[0]) / f32::from(u8::MAX),
+    };
+    let mut pixels = reserve(area(size))?;
+    pixels.extend(codes.chunks_exact(channels * bytes_per_code).map(|pixel| {
+        let band = |index: usize| value(&pixel[index * bytes_per_code..][..bytes_per_code]);
+        // Grey with or without opacity, or three colours.
+        if channels < 3 {
+            Spectrum::splat(band(0))
+        } else {
+            Spectrum::new(band(0), band(1), band(2))
+        }
+    }));
     Ok(Image { size, pixels, variance: None, encoding: Encoding::Srgb })
 }

@@ -1,13 +1,20 @@
-//! [`Image::read`]: the format is chosen by the file's name.
+//! [`ImageFile`]: the format is chosen by the file's name, and the header is read before the pixels.
 
-use std::fs;
-use std::path::Path;
+use std::fs::{self, File};
+use std::io::{BufRead, BufReader, Cursor, ErrorKind, Seek};
+use std::path::{Path, PathBuf};
+
+use glam::UVec2;
 
 #[cfg(feature = "exr")]
-use super::exr;
-use super::{Image, ReadError, pfm, png};
+use super::exr_read;
+use super::memory::{Refusal, mebibytes};
+use super::{Encoding, Image, ReadError, pfm, png};
 
 impl Image {
+    /// The limit on the memory that [`Image::read`] may take: 4096 MiB, enough for 16384 x 8192 pixels of linear radiance.
+    pub const DEFAULT_LIMIT: u64 = 4096 << 20;
+
     /// Reads an image. The extension of the name chooses the format: `.exr`, `.pfm` or `.png`, in any case.
     ///
     /// - EXR, with the feature `exr`: the first layer with channels `R`, `G` and `B`, or `Y` alone; with `variance.R`, `variance.G` and
@@ -15,23 +22,173 @@ impl Image {
     /// - PFM: three bands, or one, which stands for all three.
     /// - PNG: 8 or 16 bits; codes are scaled to `[0, 1]` and stay encoded. Opacity is ignored.
     ///
+    /// Takes at most [`Image::DEFAULT_LIMIT`] bytes of memory; [`ImageFile::open`] takes a limit of one's own.
+    ///
     /// # Errors
-    /// When the file cannot be read, or is not of the format that its name says, or lobe was built without that format.
+    /// When there is no such file, or it is not an ordinary one; when it cannot be read, is incomplete, or is not of the
+    /// format that its name says; when reading it would take more memory than the limit or than there is; or when lobe
+    /// was built without that format.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
+        ImageFile::open(path, Self::DEFAULT_LIMIT)?.decode()
+    }
+
+    /// Reads an image from the bytes of a file. `name` chooses the format by its extension and stands in errors. `limit`
+    /// is as for [`ImageFile::open`].
+    ///
+    /// # Errors
+    /// As [`Image::read`].
+    ///
+    /// ```
+    /// let pixel: Vec<u8> = [1.0_f32, 0.5, 0.25].into_iter().flat_map(f32::to_le_bytes).collect();
+    /// let image = lobe::image::Image::parse("one.pfm", &[b"PF\n1 1\n-1\n", &pixel[..]].concat(), 1 << 20)?;
+    /// assert_eq!(image.pixels[0].to_array(), [1.0, 0.5, 0.25]);
+    /// # Ok::<(), lobe::image::ReadError>(())
+    /// ```
+    pub fn parse(name: impl AsRef<Path>, bytes: &[u8], limit: u64) -> Result<Self, ReadError> {
+        let path = name.as_ref();
+        let decoded = Format::of(path)?.decode(Cursor::new(bytes), bytes.len() as u64, limit);
+        decoded.map_err(|refusal| refused(path, refusal))
+    }
+}
+
+/// An image file whose header was read, and whose pixels were not.
+///
+/// So sizes can be compared, and what is too large refused, before anything takes time or memory.
+///
+/// ```no_run
+/// use lobe::image::{Image, ImageFile};
+///
+/// let file = ImageFile::open("sky.exr", Image::DEFAULT_LIMIT)?;
+/// println!("{} x {} pixels", file.size().x, file.size().y);
+/// let image = file.decode()?;
+/// # Ok::<(), lobe::image::ReadError>(())
+/// ```
+#[derive(Debug)]
+pub struct ImageFile {
+    path: PathBuf,
+    file: File,
+    /// Bytes of the file.
+    length: u64,
+    format: Format,
+    size: UVec2,
+    limit: u64,
+}
+
+impl ImageFile {
+    /// Opens an image file and reads its header. Formats and names are those of [`Image::read`].
+    ///
+    /// `limit` is the most memory in bytes that reading may take: the pixels as an [`Image`] has them, 16 bytes each and
+    /// as much again for variance, and what decoding takes beside them. A fixed part of less than 100 MiB is not counted.
+    ///
+    /// # Errors
+    /// As [`Image::read`], with this limit.
+    pub fn open(path: impl AsRef<Path>, limit: u64) -> Result<Self, ReadError> {
         let path = path.as_ref();
-        let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
-        let decode = match extension.as_deref().and_then(|extension| extension.to_str()) {
-            #[cfg(feature = "exr")]
-            Some("exr") => exr::decode,
-            #[cfg(not(feature = "exr"))]
-            Some("exr") => return Err(ReadError::Unsupported { path: path.to_owned() }),
-            Some("pfm") => pfm::decode,
-            Some("png") => png::decode,
-            _ => return Err(ReadError::Format { path: path.to_owned() }),
+        let format = Format::of(path)?;
+        let system = |error: std::io::Error| match error.kind() {
+            ErrorKind::NotFound => ReadError::Missing { path: path.to_owned() },
+            _ => ReadError::System { path: path.to_owned(), error },
         };
-        let bytes =
-            fs::read(path).map_err(|error| ReadError::System { path: path.to_owned(), error })?;
-        decode(&bytes).map_err(|reason| ReadError::Contents { path: path.to_owned(), reason })
+        // Before it is opened, which waits at a pipe for a writer.
+        let found = fs::metadata(path).map_err(system)?;
+        if found.is_dir() {
+            return Err(ReadError::Folder { path: path.to_owned() });
+        }
+        if !found.is_file() {
+            return Err(ReadError::NotAFile { path: path.to_owned() });
+        }
+        let file = File::open(path).map_err(system)?;
+        let length = file.metadata().map_err(system)?.len();
+        if length > limit {
+            let (has, limit) = (mebibytes(length.into()), limit >> 20);
+            let reason = format!("the file has {has} MiB, above the limit of {limit} MiB");
+            return Err(refused(path, Refusal::AboveLimit(reason)));
+        }
+        let size = format
+            .size(BufReader::new(&file), length, limit)
+            .map_err(|refusal| refused(path, refusal))?;
+        Ok(Self { path: path.to_owned(), file, length, format, size, limit })
+    }
+
+    /// Columns and rows, at least one of each.
+    pub fn size(&self) -> UVec2 {
+        self.size
+    }
+
+    /// What the numbers mean.
+    pub fn encoding(&self) -> Encoding {
+        match self.format {
+            Format::Png => Encoding::Srgb,
+            _ => Encoding::Linear,
+        }
+    }
+
+    /// Reads the pixels.
+    ///
+    /// # Errors
+    /// As [`Image::read`], with the limit that the file was opened with.
+    pub fn decode(self) -> Result<Image, ReadError> {
+        let Self { path, mut file, length, format, limit, .. } = self;
+        file.rewind().map_err(|error| ReadError::System { path: path.clone(), error })?;
+        let decoded = format.decode(BufReader::new(file), length, limit);
+        decoded.map_err(|refusal| refused(&path, refusal))
+    }
+}
+
+fn refused(path: &Path, refusal: Refusal) -> ReadError {
+    let path = path.to_owned();
+    match refusal {
+        Refusal::Contents(reason) => ReadError::Contents { path, reason },
+        Refusal::AboveLimit(reason) => ReadError::AboveLimit { path, reason },
+        Refusal::OutOfMemory(bytes) => ReadError::OutOfMemory { path, bytes },
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    #[cfg(feature = "exr")]
+    Exr,
+    Pfm,
+    Png,
+}
+
+impl Format {
+    /// The format that the extension of a name says.
+    fn of(path: &Path) -> Result<Self, ReadError> {
+        let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
+        match extension.as_deref().and_then(|extension| extension.to_str()) {
+            #[cfg(feature = "exr")]
+            Some("exr") => Ok(Self::Exr),
+            #[cfg(not(feature = "exr"))]
+            Some("exr") => Err(ReadError::Unsupported { path: path.to_owned() }),
+            Some("pfm") => Ok(Self::Pfm),
+            Some("png") => Ok(Self::Png),
+            _ => Err(ReadError::Format { path: path.to_owned() }),
+        }
+    }
+
+    /// Columns and rows of an image that would stay within the limit, by its header.
+    fn size(self, source: impl BufRead + Seek, length: u64, limit: u64) -> Result<UVec2, Refusal> {
+        match self {
+            #[cfg(feature = "exr")]
+            Self::Exr => exr_read::size(source, length, limit),
+            Self::Pfm => pfm::size(source, length, limit),
+            Self::Png => png::size(source, limit),
+        }
+    }
+
+    fn decode(
+        self,
+        source: impl BufRead + Seek,
+        length: u64,
+        limit: u64,
+    ) -> Result<Image, Refusal> {
+        match self {
+            #[cfg(feature = "exr")]
+            Self::Exr => exr_read::decode(source, length, limit),
+            Self::Pfm => pfm::decode(source, length, limit),
+            Self::Png => png::decode(source, limit),
+        }
     }
 }
 

@@ -106,6 +106,12 @@ where
     reference * reference + 0.01
 }
 
+/// Column and row of a pixel. Its index may leave 32 bits.
+pub(super) fn place(index: usize, size: UVec2) -> UVec2 {
+    let width = size.x as usize;
+    UVec2::new((index % width) as u32, (index / width) as u32)
+}
+
 /// Checks that the images can be compared.
 pub(super) fn check(image: &Image, reference: &Image) -> Result<(), CompareError> {
     if image.size != reference.size {
@@ -118,11 +124,7 @@ pub(super) fn check(image: &Image, reference: &Image) -> Result<(), CompareError
         let is_odd = |index: &usize| !image.pixels[*index].is_finite();
         let odd: Vec<usize> = (0..image.pixels.len()).filter(is_odd).collect();
         if !odd.is_empty() {
-            let at = |index: &usize| {
-                let (index, width) = (*index as u32, image.size.x);
-                UVec2::new(index % width, index / width)
-            };
-            let first = odd.iter().take(NAMED).map(at).collect();
+            let first = odd.iter().take(NAMED).map(|&index| place(index, image.size)).collect();
             return Err(CompareError::NotFinite { which, count: odd.len(), first });
         }
     }

@@ -3,7 +3,7 @@
 use glam::UVec2;
 
 use super::CompareError;
-use super::errors::check;
+use super::errors::{check, place};
 use crate::image::Image;
 
 /// Result of [`z_test`]. z is the difference of two values over its standard error.
@@ -51,12 +51,11 @@ pub fn z_test(image: &Image, reference: &Image) -> Result<Option<ZTest>, Compare
     let limit = sidak(z.len());
     let largest =
         z.iter().copied().fold((0.0, 0), |worst, one| if one.0 > worst.0 { one } else { worst });
-    let (index, width) = (largest.1 as u32, image.size.x);
     Ok(Some(ZTest {
         tested: z.len(),
         failed: z.iter().filter(|(z, _)| *z > limit).count(),
         limit,
-        largest: (largest.0, UVec2::new(index % width, index / width)),
+        largest: (largest.0, place(largest.1, image.size)),
         mean_square: z.iter().map(|(z, _)| z * z).sum::<f64>() / z.len().max(1) as f64,
     }))
 }

@@ -4,9 +4,10 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use lobe::image::{Image, check_writable, write_file};
-use lobe::metrics::{ErrorMap, Errors, Exposures, Viewing, ZTest, z_test};
+use lobe::image::{check_writable, write_file};
+use lobe::metrics::{CompareError, ErrorMap, Errors, Exposures, Viewing, ZTest, z_test};
 
+use crate::images::MemoryArgument;
 use crate::summary::Summary;
 
 const EXAMPLES: &str = "\
@@ -43,6 +44,9 @@ pub struct Arguments {
     /// bands) and PREFIX-flip.png
     #[arg(long, value_name = "PREFIX")]
     maps: Option<PathBuf>,
+
+    #[command(flatten)]
+    memory: MemoryArgument,
 }
 
 /// Names of the maps.
@@ -88,8 +92,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     if let Some(prefix) = &arguments.maps {
         MAPS.iter().try_for_each(|name| check_writable(map_path(prefix, name)))?;
     }
-    let image = Image::read(&arguments.image)?;
-    let reference = Image::read(&arguments.reference)?;
+    let image = arguments.memory.open(&arguments.image)?;
+    let reference = arguments.memory.open(&arguments.reference)?;
+    // Before anything is decoded.
+    if image.size() != reference.size() {
+        return Err(CompareError::Size(image.size(), reference.size()).into());
+    }
+    let (image, reference) = (arguments.memory.decode(image)?, arguments.memory.decode(reference)?);
     let errors = Errors::between(&image, &reference)?;
     let (seen, exposures) = ErrorMap::flip(&image, &reference, Viewing::default())?;
     let flip = seen.mean();

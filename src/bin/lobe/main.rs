@@ -4,6 +4,7 @@ mod arguments;
 mod chart;
 mod compare;
 mod help;
+mod images;
 mod info;
 mod interrupt;
 mod output;

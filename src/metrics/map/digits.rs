@@ -42,7 +42,7 @@ pub fn draw(page: &mut [u8], size: UVec2, at: UVec2, text: &str) {
                 + UVec2::new(index as u32 * STEP, 0)
                 + SQUARE * UVec2::new(square % 3, square / 3);
             for y in corner.y..corner.y + SQUARE {
-                let start = 3 * (y * size.x + corner.x) as usize;
+                let start = 3 * (y as usize * size.x as usize + corner.x as usize);
                 page[start..start + 3 * SQUARE as usize].fill(0);
             }
         }

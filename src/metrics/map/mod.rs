@@ -84,7 +84,7 @@ impl ErrorMap {
     pub fn png(&self) -> Vec<u8> {
         let UVec2 { x: width, y: height } = self.size.max(UVec2::new(BAR_WIDTH, 1));
         let size = UVec2::new(width, height + BAR_HEIGHT);
-        let mut page = vec![255; 3 * (size.x * size.y) as usize];
+        let mut page = vec![255; 3 * size.x as usize * size.y as usize];
         for (row, codes) in self.codes().chunks_exact(3 * self.size.x as usize).enumerate() {
             let start = 3 * row * width as usize;
             page[start..start + codes.len()].copy_from_slice(codes);
@@ -106,7 +106,7 @@ impl ErrorMap {
             let value = first + (1.0 - first) * x as f32 / (length - 1) as f32;
             let code = color(self.scale(), value);
             for y in top + MARGIN..top + MARGIN + 12 {
-                let at = 3 * (y * size.x + left + x) as usize;
+                let at = 3 * (y as usize * size.x as usize + (left + x) as usize);
                 page[at..at + 3].copy_from_slice(&code);
             }
         }

@@ -11,16 +11,18 @@ mod steps;
 
 use std::error::Error;
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::{ArgGroup, Args, value_parser};
-use lobe::image::{Encoding, Image};
-use lobe::metrics::Errors;
+use lobe::glam::UVec2;
+use lobe::image::{Encoding, Image, ImageFile};
 use lobe::metrics::convergence::{Method, Other};
+use lobe::metrics::{CompareError, Errors};
 use lobe::{RenderOptions, Spectrum};
 
 use crate::arguments::{ThreadsArgument, seconds};
+use crate::images::MemoryArgument;
 use crate::scene::SceneArguments;
 use folder::Folder;
 use measure::Bench;
@@ -42,8 +44,18 @@ reference's own error is subtracted and drawn as a floor. An interrupted chart r
 chart is only drawn again, after a short trial of each method; --fresh starts again."#;
 
 /// Arguments without effect on `--stability`, which they conflict with.
-const OF_SCENES: [&str; 9] =
-    ["set", "methods", "time", "budgets", "seeds", "reference", "add", "fresh", "threads"];
+const OF_SCENES: [&str; 10] = [
+    "set",
+    "methods",
+    "time",
+    "budgets",
+    "seeds",
+    "reference",
+    "add",
+    "max_image_mb",
+    "fresh",
+    "threads",
+];
 
 /// Charts error against time and samples for each method to render a scene: SVG, CSV and an HTML page
 #[derive(Args)]
@@ -91,6 +103,9 @@ pub struct Arguments {
     #[arg(long, value_name = "LABEL=IMAGE,SECONDS", value_parser = added)]
     add: Vec<Added>,
 
+    #[command(flatten)]
+    memory: MemoryArgument,
+
     /// Discards earlier results in the folder
     #[arg(long)]
     fresh: bool,
@@ -128,6 +143,29 @@ fn added(text: &str) -> Result<Added, String> {
     Ok(Added { label, path, seconds })
 }
 
+/// Reads the pictures of --add, of which none is decoded unless its size and encoding are the film's.
+fn decode_added(
+    arguments: &Arguments,
+    files: Vec<ImageFile>,
+    size: UVec2,
+) -> Result<Vec<Image>, Box<dyn Error>> {
+    let told = |path: &Path, error: CompareError| format!("`{}`: {error}", path.display());
+    for (Added { path, .. }, file) in arguments.add.iter().zip(&files) {
+        if file.size() != size {
+            return Err(told(path, CompareError::Size(file.size(), size)).into());
+        }
+    }
+    let mut images = Vec::new();
+    for (Added { path, .. }, file) in arguments.add.iter().zip(files) {
+        let image = arguments.memory.decode(file)?;
+        let dark = vec![Spectrum::BLACK; size.x as usize * size.y as usize];
+        let like = Image { size, pixels: dark, variance: None, encoding: Encoding::Linear };
+        Errors::between(&image, &like).map_err(|error| told(path, error))?;
+        images.push(image);
+    }
+    Ok(images)
+}
+
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let Arguments { scene, output, seeds, fresh, .. } = arguments;
     let Some(file) = scene else {
@@ -144,15 +182,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         Some(path) => methods::read(path, file)?,
         None => methods::usual(file)?,
     };
-    let images: Vec<Image> =
-        arguments.add.iter().map(|added| Image::read(&added.path)).collect::<Result<_, _>>()?;
+    let files: Vec<ImageFile> = arguments
+        .add
+        .iter()
+        .map(|added| arguments.memory.open(&added.path))
+        .collect::<Result<_, _>>()?;
     let loaded = file.load()?;
     let size = loaded.view.film().window().size();
-    for (Added { path, .. }, image) in arguments.add.iter().zip(&images) {
-        let dark = vec![Spectrum::BLACK; size.x as usize * size.y as usize];
-        let like = Image { size, pixels: dark, variance: None, encoding: Encoding::Linear };
-        Errors::between(image, &like).map_err(|error| format!("`{}`: {error}", path.display()))?;
-    }
+    let images = decode_added(arguments, files, size)?;
     let folder = Folder::open(&folder)?;
 
     let options = RenderOptions { threads: arguments.threads.given(), ..RenderOptions::default() };

@@ -133,11 +133,10 @@ impl Arguments {
     /// What merging needs to know about a part. One that lacks samples is none.
     fn part(
         &self,
-        loaded: &LoadedScene,
+        all_samples: u32,
         rendered: &Rendered,
         identity: &[String],
     ) -> Option<PartMetadata> {
-        let all_samples = self.spp.unwrap_or(loaded.settings.sampler.spp);
         let part = self.shard.filter(|_| rendered.complete)?;
         Some(PartMetadata {
             samples: part.samples(all_samples),
@@ -167,12 +166,13 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
     let stored = state.as_ref().map(State::load).transpose()?.flatten();
 
     let LoadedScene { scene, view, settings, .. } = &loaded;
+    let all_samples = arguments.spp.unwrap_or(settings.sampler.spp);
     let metadata = |rendered: &Rendered| Metadata {
         scene: arguments.scene.path.display().to_string(),
         seed: settings.sampler.seed,
         samples_per_pixel: rendered.samples_per_pixel,
         seconds: rendered.seconds,
-        part: arguments.part(&loaded, rendered, &identity),
+        part: arguments.part(all_samples, rendered, &identity),
     };
     // The last failure to save: it does not end the render.
     let unsaved = Mutex::new(None);
