@@ -174,13 +174,20 @@ impl Film {
         first_hits[index].add(normal, depth, albedo);
     }
 
+    /// Whether another film's samples can be added to this one: it keeps the same, and its window is part of this one's.
+    pub fn fits(&self, tile: &Self) -> bool {
+        self.contents == tile.contents
+            && tile.window.min.cmpge(self.window.min).all()
+            && tile.window.max.cmple(self.window.max).all()
+    }
+
     /// Adds the samples of a film whose window is part of this one's. The result is that of adding them here one by one,
     /// up to rounding; merging into an empty film gives the same bits.
     ///
     /// # Panics
     /// If the contents of the films differ, or the tile's window reaches beyond this one's.
     pub fn merge(&mut self, tile: &Film) {
-        assert_eq!(self.contents, tile.contents, "a tile keeps what its film keeps");
+        assert!(self.fits(tile), "a tile keeps what its film keeps, within its window");
         self.non_finite += tile.non_finite;
         let width = tile.window.size().x as usize;
         for (row, y) in (tile.window.min.y..tile.window.max.y).enumerate() {

@@ -8,12 +8,12 @@ use std::io::{BufRead, Read, Seek};
 use ::exr::meta::MetaData;
 use ::exr::meta::attribute::SampleType;
 use ::exr::meta::header::Header;
-use ::exr::prelude::f16;
+use ::exr::prelude::{AttributeValue, Vec2, f16};
 use glam::UVec2;
 
 use super::exr_blocks::Blocks;
 use super::memory::{PIXEL, Refusal, area, check, filled, reserve};
-use super::{Encoding, Image};
+use super::{Encoding, Image, Metadata, ParsePartError, PartMetadata, Picture, Plane, Window};
 use crate::spectrum::Spectrum;
 
 /// Most memory that a header takes, for each byte in the file. Seen: 34 for tiny attributes, 17 for tiny parts.
@@ -140,6 +140,99 @@ pub(super) fn decode(
     }
     let variance = layout.variance.map(|_| variance);
     Ok(Image { size, pixels, variance, encoding: Encoding::Linear })
+}
+
+/// Reads the metadata of a part of a render, from the header alone.
+pub(super) fn part_metadata(
+    mut source: impl BufRead + Seek,
+    length: u64,
+    limit: u64,
+) -> Result<Metadata, Refusal> {
+    Layout::read(&mut source, length, limit)?.part_metadata()
+}
+
+/// Decodes what the film of a part of a render kept. Colours and layers are left out, since the film gives them.
+pub(super) fn decode_part(
+    source: impl BufRead + Seek,
+    length: u64,
+    limit: u64,
+) -> Result<(Picture, Metadata), Refusal> {
+    let mut bytes = reserve(length)?;
+    source.take(length).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
+    let mut rest = &bytes[..];
+    let layout = Layout::read(&mut rest, length, limit)?;
+    let (size, metadata) = (layout.size, layout.part_metadata()?);
+    let blocks = Blocks::find(&layout.meta, layout.part, &bytes, bytes.len() - rest.len())?;
+
+    let header = blocks.header;
+    let of_film = header.channels.channels_with_byte_offset().filter(|(_, channel)| {
+        channel.sample_type == SampleType::U32 && channel.name.to_string().starts_with(FILM)
+    });
+    let of_film: Vec<_> = of_film.map(|(offset, channel)| (offset, &channel.name)).collect();
+    let base = layout.base + 4 * of_film.len() as u128 * u128::from(area(size));
+    check(size, base, limit)?;
+    let mut planes = Vec::new();
+    for (_, name) in &of_film {
+        planes.push(Plane { name: name.to_string(), values: filled(area(size), 0)? });
+    }
+    let bytes_per_pixel = header.channels.bytes_per_pixel;
+    for index in 0..blocks.count {
+        let Some(block) = blocks.get(index)? else { continue };
+        check(size, base + blocks.memory(&block)?, limit)?;
+        let block = blocks.decompress(block, &layout.meta)?;
+        let (corner, width) = (block.index.pixel_position, block.index.pixel_size.0);
+        for (y, row) in block.data.chunks_exact(bytes_per_pixel * width).enumerate() {
+            let start = (corner.1 + y) * size.x as usize + corner.0;
+            for (plane, (offset, _)) in planes.iter_mut().zip(&of_film) {
+                let words = row[offset * width..][..4 * width].as_chunks().0;
+                for (value, word) in plane.values[start..].iter_mut().zip(words) {
+                    *value = u32::from_ne_bytes(*word);
+                }
+            }
+        }
+    }
+    let corner = |Vec2(x, y)| Some(UVec2::new(u32::try_from(x).ok()?, u32::try_from(y).ok()?));
+    let min = corner(header.own_attributes.layer_position);
+    let whole = header.shared_attributes.display_window.size;
+    let resolution = UVec2::new(whole.0 as u32, whole.1 as u32);
+    let window = min.map(|min| Window { min, max: min.saturating_add(size) });
+    let window = window.filter(|window| window.max.cmple(resolution).all());
+    let window = window.ok_or("its window reaches beyond the image")?;
+    Ok((Picture { window, planes, ..Picture::new(resolution, Vec::new()) }, metadata))
+}
+
+/// How the names of channels begin that a film keeps.
+const FILM: &str = "film.";
+
+impl Layout {
+    fn part_metadata(&self) -> Result<Metadata, Refusal> {
+        let other = &self.meta.headers[self.part].own_attributes.other;
+        let value = |name: &str| {
+            let found = other.iter().find(|(known, _)| *known == name);
+            found.map(|(_, value)| value)
+        };
+        let text = |name: &str| match value(name) {
+            Some(AttributeValue::Text(text)) => {
+                Some(String::from_utf8_lossy(text.as_slice()).into_owned())
+            }
+            _ => None,
+        };
+        let part = text("part").ok_or(
+            "it is not a complete part of a render: `lobe render --shard K/N` writes those",
+        )?;
+        let part: PartMetadata = part.parse().map_err(|error: ParsePartError| error.to_string())?;
+        let seconds = match value("renderSeconds") {
+            Some(AttributeValue::F64(seconds)) => *seconds,
+            _ => 0.0,
+        };
+        Ok(Metadata {
+            scene: text("scene").unwrap_or_default(),
+            seed: text("seed").and_then(|seed| seed.parse().ok()).unwrap_or_default(),
+            samples_per_pixel: part.samples.end - part.samples.start,
+            seconds,
+            part: Some(part),
+        })
+    }
 }
 
 /// Reads three channels of a row of pixels.

@@ -10,6 +10,8 @@ use glam::UVec2;
 use super::exr_read;
 use super::memory::{Refusal, mebibytes};
 use super::{Encoding, Image, ReadError, pfm, png};
+#[cfg(feature = "exr")]
+use super::{Metadata, Picture};
 
 impl Image {
     /// The limit on the memory that [`Image::read`] may take: 4096 MiB, enough for 16384 x 8192 pixels of linear radiance.
@@ -132,6 +134,40 @@ impl ImageFile {
         file.rewind().map_err(|error| ReadError::System { path: path.clone(), error })?;
         let decoded = format.decode(BufReader::new(file), length, limit);
         decoded.map_err(|refusal| refused(&path, refusal))
+    }
+}
+
+/// Parts of renders, which EXR files hold.
+#[cfg(feature = "exr")]
+impl ImageFile {
+    /// How the picture was made, with its [`part`](Metadata::part); from the header alone.
+    ///
+    /// # Errors
+    /// If it is not a part of a render, and as [`Image::read`].
+    pub fn part(&self) -> Result<Metadata, ReadError> {
+        self.read_part(exr_read::part_metadata)
+    }
+
+    /// A picture whose [`planes`](Picture::planes) hold what the film of the part kept, without colours, and how it was made.
+    ///
+    /// # Errors
+    /// As [`part`](Self::part).
+    pub fn decode_part(&self) -> Result<(Picture, Metadata), ReadError> {
+        self.read_part(exr_read::decode_part)
+    }
+
+    fn read_part<'a, T>(
+        &'a self,
+        read: impl Fn(BufReader<&'a File>, u64, u64) -> Result<T, Refusal>,
+    ) -> Result<T, ReadError> {
+        let Self { path, length, format, limit, .. } = self;
+        let mut file = &self.file;
+        file.rewind().map_err(|error| ReadError::System { path: path.clone(), error })?;
+        match format {
+            Format::Exr => read(BufReader::new(file), *length, *limit),
+            _ => Err("it is not an EXR file, which parts of renders are".into()),
+        }
+        .map_err(|refusal| refused(path, refusal))
     }
 }
 

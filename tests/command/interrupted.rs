@@ -219,7 +219,7 @@ fn outputs_are_not_the_scenes_own_files() {
     let scene = fs::read_to_string(folder.0.join("s.toml")).unwrap();
     fs::rename(folder.0.join("wall.obj"), folder.0.join("wall.png")).unwrap();
     folder.write("s.png", &scene.replace("wall.obj", "wall.png"));
-    let own = |name: &str| format!("cannot write `{name}`: the scene reads it; give another name");
+    let own = |name: &str| format!("cannot write `{name}`: it is read; give another name");
     folder.fails("render s.png -o ./wall.png", &own("./wall.png"));
     folder.fails("render s.png -o a.exr -o s.png", &own("s.png"));
     folder.fails("render s.png -o a.exr -o a.exr", "`a.exr` is given twice: give each output once");

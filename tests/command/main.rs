@@ -7,6 +7,7 @@
 mod chart;
 mod folder;
 mod interrupted;
+mod merge;
 
 use std::fs;
 

@@ -4,9 +4,11 @@ mod arguments;
 mod chart;
 mod compare;
 mod help;
+mod identity;
 mod images;
 mod info;
 mod interrupt;
+mod merge;
 mod output;
 mod progress;
 mod render;
@@ -26,6 +28,7 @@ Examples:
   lobe render assets/chapter8.toml                      writes chapter8.png and chapter8.exr
   lobe render scene.toml -o a.png --spp 256 --set camera.fov=40
   lobe info scene.toml                                  triangles, bounds, tree, memory
+  lobe merge scene-*-of-8.exr -o scene.exr               the parts of lobe render --shard, added up
   lobe compare a.exr reference.exr                      errors, FLIP, and whether noise explains them
   lobe chart scene.toml                                 error against time, for each method
   lobe chart --stability                                where methods fail numerically
@@ -46,6 +49,7 @@ struct Arguments {
 enum Command {
     Render(render::Arguments),
     Info(info::Arguments),
+    Merge(merge::Arguments),
     Compare(compare::Arguments),
     Chart(chart::Arguments),
     Help(help::Arguments),
@@ -56,6 +60,7 @@ fn main() -> ExitCode {
     let result: Result<ExitCode, Box<dyn Error>> = match Arguments::parse().command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Info(arguments) => info::run(&arguments).map(success),
+        Command::Merge(arguments) => merge::run(&arguments).map(success),
         Command::Compare(arguments) => compare::run(&arguments).map(success),
         Command::Chart(arguments) => chart::run(&arguments).map(success),
         Command::Help(arguments) => help::run(&arguments, Arguments::command()).map(success),

@@ -57,14 +57,14 @@ impl Output {
         Ok(Self { path, format })
     }
 
-    /// Refuses outputs that are files of the scene, or the same file twice.
+    /// Refuses outputs that are among the files `read`, or the same file twice.
     pub fn check_own(outputs: &[Self], read: &[PathBuf]) -> Result<(), Box<dyn Error>> {
         let real = |path: &Path| fs::canonicalize(path).ok();
         let read: Vec<_> = read.iter().filter_map(|path| real(path)).collect();
         for (index, Self { path, .. }) in outputs.iter().enumerate() {
             let shown = path.display();
             if real(path).is_some_and(|path| read.contains(&path)) {
-                let what = format!("cannot write `{shown}`: the scene reads it; give another name");
+                let what = format!("cannot write `{shown}`: it is read; give another name");
                 return Err(what.into());
             }
             let others = &outputs[..index];

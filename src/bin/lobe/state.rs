@@ -1,6 +1,5 @@
 //! [`State`]: a render on disk, from which `--resume` goes on.
 
-use std::collections::HashMap;
 use std::error::Error;
 use std::fs;
 use std::io::{self, BufWriter, Write};
@@ -8,6 +7,8 @@ use std::path::{Path, PathBuf};
 
 use lobe::image::{WriteError, check_writable, write_file_with};
 use lobe::render::Checkpoint;
+
+use crate::identity::difference;
 
 /// First line of the file.
 const MAGIC: &str = "a render that lobe can go on with, version 1";
@@ -17,12 +18,12 @@ const MAGIC: &str = "a render that lobe can go on with, version 1";
 pub struct State {
     pub path: PathBuf,
     /// What is rendered: lines `key = value`.
-    identity: Vec<String>,
+    identity: String,
 }
 
 impl State {
     /// The file beside an output, with another extension. Checks that it can be written.
-    pub fn beside(output: &Path, identity: Vec<String>) -> Result<Self, WriteError> {
+    pub fn beside(output: &Path, identity: String) -> Result<Self, WriteError> {
         let path = output.with_extension("state");
         check_writable(&path)?;
         Ok(Self { path, identity })
@@ -55,7 +56,7 @@ impl State {
     pub fn save(&self, checkpoint: &Checkpoint) -> Result<(), WriteError> {
         write_file_with(&self.path, |file| {
             let mut to = Summed { to: BufWriter::new(file), sum: crc32fast::Hasher::new() };
-            to.write_all(format!("{MAGIC}\n{}\n\n", self.identity.join("\n")).as_bytes())?;
+            to.write_all(format!("{MAGIC}\n{}\n\n", self.identity).as_bytes())?;
             checkpoint.write(&mut to)?;
             let Summed { mut to, sum } = to;
             to.write_all(&sum.finalize().to_le_bytes())?;
@@ -80,30 +81,6 @@ fn split(bytes: &[u8]) -> Option<(&str, usize)> {
     let is_sound = crc32fast::hash(all) == u32::from_le_bytes(*sum);
     let head = str::from_utf8(&rest[..length]).ok()?;
     is_sound.then_some((head, MAGIC.len() + 1 + length + 2))
-}
-
-/// The first difference between two renders, in words.
-pub fn difference(here: &[String], there: &str) -> Option<String> {
-    if here.iter().map(String::as_str).eq(there.lines()) {
-        return None;
-    }
-    fn parts(line: &str) -> (&str, &str) {
-        line.split_once(" = ").unwrap_or((line, ""))
-    }
-    let values: HashMap<_, _> = there.lines().map(parts).collect();
-    let own: HashMap<_, _> = here.iter().map(|line| parts(line)).collect();
-    for (key, value) in here.iter().map(|line| parts(line)) {
-        match values.get(key) {
-            Some(other) if *other == value => {}
-            Some(other) => return Some(format!("{key} is {other} there and {value} here")),
-            None => return Some(format!("{key} is {value} here and left out there")),
-        }
-    }
-    let more = there.lines().map(parts).find(|(key, _)| !own.contains_key(key));
-    Some(match more {
-        Some((key, value)) => format!("{key} is {value} there and left out here"),
-        None => "its values are in another order".to_owned(),
-    })
 }
 
 /// A writer that keeps a checksum of what is written.

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::io::{self, Write};
 
-use lobe::image::Window;
+use lobe::image::{Picture, Window};
 use lobe::scene::{FilmSettings, Scene};
 
 /// Lines for people and programs alike: a key without blanks, then the value, then its unit if any. Keys may repeat.
@@ -31,6 +31,20 @@ impl Summary {
         let degenerate = triangles - scene.accel().triangle_count();
         if degenerate > 0 {
             self.add("degenerate", format!("{degenerate} triangles without area, left out"));
+        }
+    }
+
+    /// Adds the standard error of a picture.
+    pub fn add_error(&mut self, picture: &Picture) {
+        match picture.standard_error() {
+            Some(error) => {
+                self.add("error", format!("{error:.2e} standard error of a pixel, in radiance"));
+            }
+            // Each layer costs time, so there is no error without an EXR.
+            None if picture.layers.is_some() => {
+                self.add("error", "unknown: the samples are a single set; see sampler.replicates");
+            }
+            None => {}
         }
     }
 

@@ -110,7 +110,7 @@ impl Arguments {
     }
 
     /// What decides about the picture: the scene, and the arguments that change which samples are taken or what is kept.
-    fn identity(&self, loaded: &LoadedScene, layers: bool) -> Vec<String> {
+    fn identity(&self, loaded: &LoadedScene, layers: bool) -> String {
         let mut lines = loaded.identity();
         lines.retain(|line| {
             !["sampler.seed = ", "sampler.spp = "].iter().any(|key| line.starts_with(key))
@@ -121,28 +121,25 @@ impl Arguments {
             self.spp.unwrap_or(loaded.settings.sampler.spp)
         ));
         lines.push(format!("layers = {layers}"));
-        lines
+        lines.join("\n")
     }
 
     /// A state is of one part, too.
-    fn identity_of_state(&self, identity: &[String]) -> Vec<String> {
-        let part = self.shard.map(|Part { index, count }| format!("shard = {}/{count}", index + 1));
-        identity.iter().cloned().chain(part).collect()
+    fn identity_of_state(&self, identity: &str) -> String {
+        match self.shard {
+            Some(Part { index, count }) => format!("{identity}\nshard = {}/{count}", index + 1),
+            None => identity.to_owned(),
+        }
     }
 
     /// What merging needs to know about a part. One that lacks samples is none.
-    fn part(
-        &self,
-        all_samples: u32,
-        rendered: &Rendered,
-        identity: &[String],
-    ) -> Option<PartMetadata> {
+    fn part(&self, all_samples: u32, rendered: &Rendered, identity: &str) -> Option<PartMetadata> {
         let part = self.shard.filter(|_| rendered.complete)?;
         Some(PartMetadata {
             samples: part.samples(all_samples),
             all_samples,
             non_finite: rendered.non_finite,
-            identity: identity.join("\n"),
+            identity: identity.to_owned(),
         })
     }
 }
@@ -155,9 +152,18 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
     let sampler = &mut loaded.settings.sampler;
     sampler.seed = arguments.seed.unwrap_or(sampler.seed);
     let layers = !arguments.no_layers && outputs.iter().any(|o| o.format == Format::Exr);
+    let spp = arguments.spp.unwrap_or(loaded.settings.sampler.spp);
+    if let Some(part) = arguments.shard
+        && part.samples(spp).is_empty()
+    {
+        let (number, count) = (part.index + 1, part.count);
+        let what =
+            format!("part {number} of {count} has none of the {spp} samples: use fewer parts");
+        return Err(what.into());
+    }
     let identity = match arguments.resume || arguments.shard.is_some() {
         true => arguments.identity(&loaded, layers),
-        false => Vec::new(),
+        false => String::new(),
     };
     let state = match arguments.resume {
         true => Some(State::beside(&outputs[0].path, arguments.identity_of_state(&identity))?),
@@ -166,13 +172,12 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
     let stored = state.as_ref().map(State::load).transpose()?.flatten();
 
     let LoadedScene { scene, view, settings, .. } = &loaded;
-    let all_samples = arguments.spp.unwrap_or(settings.sampler.spp);
     let metadata = |rendered: &Rendered| Metadata {
         scene: arguments.scene.path.display().to_string(),
         seed: settings.sampler.seed,
         samples_per_pixel: rendered.samples_per_pixel,
         seconds: rendered.seconds,
-        part: arguments.part(all_samples, rendered, &identity),
+        part: arguments.part(spp, rendered, &identity),
     };
     // The last failure to save: it does not end the render.
     let unsaved = Mutex::new(None);

@@ -28,25 +28,12 @@ pub fn of(
     let rays = rendered.counters.rays();
     summary.add("rays", rays);
     summary.add("speed", format!("{:.2} Mrays/s", rays as f64 / rendered.seconds / 1e6));
-    add_error(&mut summary, rendered);
+    summary.add_error(&rendered.picture);
     add_faults(&mut summary, rendered);
     for output in outputs {
         summary.add("wrote", output.path.display());
     }
     summary
-}
-
-fn add_error(summary: &mut Summary, rendered: &Rendered) {
-    match rendered.picture.standard_error() {
-        Some(error) => {
-            summary.add("error", format!("{error:.2e} standard error of a pixel, in radiance"));
-        }
-        // Each layer costs time, so there is no error without an EXR.
-        None if rendered.picture.layers.is_some() => {
-            summary.add("error", "unknown: the samples are a single set; see sampler.replicates");
-        }
-        None => {}
-    }
 }
 
 fn add_faults(summary: &mut Summary, rendered: &Rendered) {
