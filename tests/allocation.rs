@@ -86,7 +86,7 @@ fn rendering_allocates_nothing_after_set_up() {
         (any(PathIntegrator::new(6)), SamplerKind::SOBOL),
         (any(PathIntegrator::new(6)), SamplerKind::BLUE_NOISE),
     ] {
-        let sampler = SamplerSettings { kind, spp: 8, ..Default::default() };
+        let sampler = SamplerSettings { kind, spp: 16, ..Default::default() };
         let film = FilmSettings::new(100, 80).with_filter(GaussianFilter::default());
         let view = View::perspective(&chapter_camera(), film).unwrap();
         let scene = ball_over_floor()

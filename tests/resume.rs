@@ -23,7 +23,7 @@ fn scene() -> Scene {
 }
 
 fn view() -> View {
-    chapter_view(UVec2::new(33, 21))
+    chapter_view(UVec2::new(17, 13))
 }
 
 fn settings(kind: SamplerKind, spp: u32) -> RenderSettings {
@@ -64,9 +64,9 @@ fn checkpoints(settings: &RenderSettings, options: &RenderOptions) -> (Rendered,
 #[test]
 fn a_resumed_render_is_the_same_to_the_bit() {
     for (kind, spp, layers) in [
-        (SamplerKind::SOBOL, 20, true),
-        (SamplerKind::INDEPENDENT, 11, true),
-        (SamplerKind::STRATIFIED, 17, false),
+        (SamplerKind::SOBOL, 150, true),
+        (SamplerKind::INDEPENDENT, 71, true),
+        (SamplerKind::STRATIFIED, 81, false),
         (SamplerKind::BLUE_NOISE, 1, true),
     ] {
         let settings = settings(kind, spp);
@@ -88,9 +88,9 @@ fn a_resumed_render_is_the_same_to_the_bit() {
 /// A cancelled render is stored once more, with what it has, and its picture is that of the checkpoint.
 #[test]
 fn a_cancelled_render_is_stored() {
-    let settings = settings(SamplerKind::SOBOL, 20);
+    let settings = settings(SamplerKind::SOBOL, 140);
     let whole = render(&scene(), &view(), &settings, &options()).unwrap();
-    for tiles in [0, 1, 14, 15, 16, 40] {
+    for tiles in [0, 1, 5, 6, 7, 15] {
         let (cancel, done) = (AtomicBool::new(tiles == 0), Mutex::new(0));
         let progress = |_| {
             let mut done = done.lock().unwrap();
@@ -128,7 +128,7 @@ fn a_cancelled_render_is_stored() {
 /// the schedule run past the last sample.
 #[test]
 fn other_renders_are_refused() {
-    let (sobol, options) = (settings(SamplerKind::SOBOL, 20), options());
+    let (sobol, options) = (settings(SamplerKind::SOBOL, 140), options());
     let (_, stored) = checkpoints(&sobol, &options);
     let bytes = &stored[stored.len() / 2];
     let refused = |settings: &RenderSettings, options: &RenderOptions, bytes: &[u8]| {
@@ -136,12 +136,12 @@ fn other_renders_are_refused() {
         render(&scene(), &view(), settings, &options).map(|_| ()).unwrap_err()
     };
     let other = RenderError::Resume(ResumeError::OtherSettings);
-    assert_eq!(refused(&settings(SamplerKind::SOBOL, 21), &options, bytes), other);
+    assert_eq!(refused(&settings(SamplerKind::SOBOL, 141), &options, bytes), other);
     let tiles = RenderOptions { tile_size: 16, ..options };
     assert_eq!(refused(&sobol, &tiles, bytes), other);
     let part = Some(Part { index: 0, count: NonZeroU32::new(2).unwrap() });
     assert_eq!(refused(&sobol, &RenderOptions { part, ..options }, bytes), other);
-    assert_eq!(refused(&settings(SamplerKind::INDEPENDENT, 20), &options, bytes), other);
+    assert_eq!(refused(&settings(SamplerKind::INDEPENDENT, 140), &options, bytes), other);
 
     let damaged = RenderError::Resume(ResumeError::Damaged);
     let no_layers = RenderOptions { layers: false, ..options };
@@ -150,7 +150,7 @@ fn other_renders_are_refused() {
     assert_eq!(refused(&sobol, &options, &bytes[..bytes.len() - 1]), damaged);
     assert_eq!(refused(&sobol, &options, &[bytes, &[0][..]].concat()), damaged);
     // The pass: after five numbers of four bytes.
-    for pass in [[0, 0], [8, 4], [0, u32::MAX]] {
+    for pass in [[0, 0], [64, 4], [0, u32::MAX]] {
         let mut bytes = bytes.clone();
         bytes[20..24].copy_from_slice(&pass[0].to_le_bytes());
         bytes[24..28].copy_from_slice(&pass[1].to_le_bytes());

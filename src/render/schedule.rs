@@ -17,8 +17,9 @@ pub struct PassSchedule {
 }
 
 impl PassSchedule {
-    /// Samples in the first pass, where time is not limited: enough for waves to be full.
-    const FIRST: u32 = 8;
+    /// Samples in the first pass, where time is not limited. Many together trace rays faster: two passes of 8 take 5 to 8 %
+    /// more instructions than one of 16.
+    const FIRST: u32 = 64;
 
     /// The passes of `samples`, from the one that begins at `next` on, within `time` seconds, of which `before` are over.
     pub fn new(samples: Range<u32>, next: u32, time: Option<f64>, before: f64) -> Self {
@@ -75,14 +76,14 @@ mod tests {
         let long = Some(1e9);
         assert_eq!(passes(0..7, 0, long), [1, 1, 2, 3]);
         assert_eq!(passes(0..1, 0, long), [1]);
-        assert_eq!(passes(0..64, 0, None), [8, 8, 16, 32]);
+        assert_eq!(passes(0..300, 0, None), [64, 64, 128, 44]);
         assert_eq!(passes(0..7, 0, None), [7]);
         assert_eq!(passes(0..u32::MAX, 0, Some(1e-9)), [1]);
         // A part of the samples has the passes of as many; a render that goes on has those that are left.
-        assert_eq!(passes(100..120, 100, None), [8, 8, 4]);
-        assert_eq!(passes(0..64, 16, None), [16, 32]);
+        assert_eq!(passes(100..250, 100, None), [64, 64, 22]);
+        assert_eq!(passes(0..256, 64, None), [64, 128]);
         assert_eq!(passes(0..64, 64, None), []);
-        assert_eq!(passes(u32::MAX - 9..u32::MAX, u32::MAX - 9, None), [8, 1]);
+        assert_eq!(passes(u32::MAX - 65..u32::MAX, u32::MAX - 65, None), [64, 1]);
         assert_eq!(passes(0..u32::MAX, 1 << 31, None), [u32::MAX >> 1]);
     }
 }
