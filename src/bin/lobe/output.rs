@@ -5,6 +5,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use lobe::image::{Display, Metadata, Picture, WriteError, check_writable, write_exr, write_png};
+use lobe::params::Shown;
 
 /// An output file. The extension of its name selects the format.
 pub struct Output {
@@ -39,7 +40,7 @@ impl Output {
             Some("png") => Format::Png,
             Some("exr") => Format::Exr,
             _ => {
-                let path = path.display();
+                let path = Shown::path(&path);
                 return Err(
                     format!("cannot write `{path}`: its name has to end in .png or .exr").into()
                 );

@@ -18,6 +18,7 @@ use clap::{ArgGroup, Args, value_parser};
 use lobe::image::{Encoding, Image};
 use lobe::metrics::Errors;
 use lobe::metrics::convergence::{Method, Other};
+use lobe::params::Shown;
 use lobe::{RenderOptions, Spectrum};
 
 use crate::arguments::{ThreadsArgument, seconds};
@@ -151,7 +152,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     for (Added { path, .. }, image) in arguments.add.iter().zip(&images) {
         let dark = vec![Spectrum::BLACK; size.x as usize * size.y as usize];
         let like = Image { size, pixels: dark, variance: None, encoding: Encoding::Linear };
-        Errors::between(image, &like).map_err(|error| format!("`{}`: {error}", path.display()))?;
+        Errors::between(image, &like)
+            .map_err(|error| format!("`{}`: {error}", Shown::path(path)))?;
     }
     let folder = Folder::open(&folder)?;
 
@@ -184,7 +186,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let mut others = Vec::new();
     for (Added { label, seconds, path }, image) in arguments.add.iter().zip(&images) {
         let errors = Errors::between(image, measured.reference.image())
-            .map_err(|error| format!("`{}`: {error}", path.display()))?;
+            .map_err(|error| format!("`{}`: {error}", Shown::path(path)))?;
         let (label, seconds) = (label.clone(), *seconds);
         others.push(Other { label, seconds, rel_mse: errors.rel_mse });
     }
