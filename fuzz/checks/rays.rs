@@ -50,7 +50,8 @@ pub fn accel(bytes: &[u8]) {
 
 /// A mesh whose triangles share no vertices.
 fn mesh(numbers: &[f32]) -> TriangleMesh {
-    let positions: Vec<Vec3> = numbers.as_chunks().0.iter().map(|&at| Vec3::from_array(at)).collect();
+    let positions: Vec<Vec3> =
+        numbers.as_chunks().0.iter().map(|&at| Vec3::from_array(at)).collect();
     let indices = (0..positions.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     TriangleMesh { positions, indices, ..TriangleMesh::default() }
 }

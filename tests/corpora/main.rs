@@ -30,7 +30,8 @@ fn drive(corpus: &str, trials: u64, telling: &[u8], check: impl Fn(&[u8])) {
         // Trial 0 is the file itself.
         for trial in 0..=trials {
             let mut random = Random(((number as u64) << 32) + trial);
-            let bytes = if trial == 0 { file.clone() } else { changed(&file, telling, &mut random) };
+            let bytes =
+                if trial == 0 { file.clone() } else { changed(&file, telling, &mut random) };
             if catch_unwind(AssertUnwindSafe(|| check(&bytes))).is_err() {
                 panic!("{}, trial {trial}: {:?}", path.display(), bytes.escape_ascii().to_string());
             }

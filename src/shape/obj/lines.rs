@@ -167,7 +167,7 @@ fn without_marks(mut line: &[u8]) -> &[u8] {
 
 #[cfg(test)]
 mod tests {
-    use std::io::{self, BufReader};
+    use std::io::BufReader;
 
     use super::*;
 
@@ -196,6 +196,35 @@ mod tests {
         assert_eq!(lines(b""), []);
         assert_eq!(lines(b"\xEF\xBB\xBF"), [(1, String::new())]);
         assert_eq!(lines(b"\xEF\xBB\xBFa\n\xEF"), owned(&[(1, "a"), (2, "\u{FFFD}")]));
+    }
+
+    // Broken by: comments read as part of a line.
+    #[test]
+    fn comments_are_not_kept() {
+        let text = [&b"a # "[..], &b"x".repeat(8 << 20), b"\nb"].concat();
+        let mut lines = LogicalLines::new(&text[..]);
+        for expected in ["a ", "b"] {
+            assert!(matches!(lines.next(), Ok(Some((_, line))) if line == expected.as_bytes()));
+        }
+        assert!(lines.chunk.capacity() + lines.edited.capacity() < 1 << 18);
+    }
+
+    // Each line around the length of a chunk: a comment, a number with `#`, CR LF, a continuation or
+    // a byte order mark lies across two chunks. Broken by: a line's state forgotten between them.
+    #[test]
+    fn lines_are_the_same_across_chunks() {
+        let chunk = CHUNK as usize;
+        for before in chunk - 8..=chunk + 8 {
+            let pad = "x".repeat(before - 4);
+            let text = format!("{pad} 1.#IND # c\r\nab \\\r\ncd\re\n");
+            let all = lines(text.as_bytes());
+            let expected = [(1, format!("{pad} 1.#IND ")), (2, "ab  cd".into()), (4, "e".into())];
+            assert_eq!(all, expected, "{before}");
+            // Lone returns keep all of it in one line for the reader.
+            let text = format!("{pad}\r\u{FEFF}ab\\ \r\u{FEFF}cd#\r\re");
+            let expected = [(1, pad), (2, "ab cd".into()), (4, String::new()), (5, "e".into())];
+            assert_eq!(lines(text.as_bytes()), expected, "{before}");
+        }
     }
 
     #[test]
