@@ -1,7 +1,9 @@
 //! Opening and reading ordinary files.
 
 use std::fs::{self, File};
-use std::io::{self, ErrorKind, Read};
+#[cfg(feature = "scene-file")]
+use std::io::Read;
+use std::io::{self, ErrorKind};
 use std::path::Path;
 
 /// Opens a file for reading.
@@ -27,6 +29,7 @@ pub fn open(path: &Path) -> io::Result<File> {
 ///
 /// # Errors
 /// Those of [`open`] and of reading, and if it is larger or there is not enough memory for it.
+#[cfg(feature = "scene-file")]
 pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let limit = most << 20;
     let mut bytes = Vec::new();

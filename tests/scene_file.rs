@@ -531,7 +531,7 @@ fn values_out_of_range() {
 }
 
 /// Names of any length and with any characters are one line of readable length, wherever they stand. Seen to fail with
-/// one of the names shown as it is.
+/// names shown as they are.
 #[test]
 fn names_are_escaped_and_shortened() {
     let long = "k".repeat(100_000);

@@ -10,7 +10,7 @@ fn lines<'a>(summary: &'a str, key: &str) -> Vec<&'a str> {
     found.map(str::trim_start).collect()
 }
 
-/// Seen to fail with the counts left out.
+/// Seen to fail with such faces refused.
 #[test]
 fn info_warns_of_lines_that_were_left_out() {
     let folder = Folder::new("odd_lines");
@@ -26,7 +26,7 @@ fn info_warns_of_lines_that_were_left_out() {
     );
 }
 
-/// Seen to fail with lights without power taken for light.
+/// Seen to fail without the warnings.
 #[test]
 fn info_warns_of_scenes_without_shapes_or_light() {
     let folder = Folder::new("dark");
@@ -54,7 +54,7 @@ const NASTY: &str = "a\n\u{1b}[31mb\u{202e}c";
 const SHOWN: &str = "a\\n\\u{1b}[31mb\\u{202e}c";
 
 /// Every command, given the name wherever it takes one: it is always escaped, and never ends a line. Seen to fail with
-/// the name shown as it is in any one of the messages, and with the arguments parsed once.
+/// names shown as they are.
 #[test]
 fn names_are_escaped_wherever_they_are_shown() {
     let folder = Folder::new("nasty");

@@ -21,7 +21,7 @@ fn obj_files() {
     drive("obj", 1500, telling, scenes::obj);
 }
 
-// Broken by: keys shown as they are in `unknown key`.
+// Broken by: names shown as they are.
 #[test]
 fn scene_files() {
     drive("scene", 400, b"\n[]{}=\"'.,#-+0123456789einfa_ \\\x1b\xE2\x80\xAE", |bytes| {
