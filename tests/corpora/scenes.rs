@@ -2,10 +2,10 @@
 //!
 //! The comment of a test says with which deliberate break of the code it was seen to fail.
 
+#[path = "../../fuzz/checks/scenes.rs"]
+mod checks;
 #[path = "../../fuzz/checks/rays.rs"]
 mod rays;
-#[path = "../../fuzz/checks/scenes.rs"]
-mod scenes;
 
 use super::drive;
 
@@ -18,14 +18,14 @@ fn text(bytes: &[u8]) -> String {
 #[test]
 fn obj_files() {
     let telling = b"\n\r\\#/ -+.0123456789efvntaginINF\t\xE9\xEF\xBB\xBF\xFF\x00";
-    drive("obj", 1500, telling, scenes::obj);
+    drive("obj", 1500, telling, checks::obj);
 }
 
 // Broken by: names shown as they are.
 #[test]
 fn scene_files() {
     drive("scene", 400, b"\n[]{}=\"'.,#-+0123456789einfa_ \\\x1b\xE2\x80\xAE", |bytes| {
-        scenes::scene(&text(bytes));
+        checks::scene(&text(bytes));
     });
 }
 
@@ -33,7 +33,7 @@ fn scene_files() {
 #[test]
 fn overrides() {
     drive("overrides", 300, b"\n[]{}=\"'.,#-+0123456789einfa_ \\\x1b\xE2\x80\xAE", |bytes| {
-        scenes::overrides(&text(bytes));
+        checks::overrides(&text(bytes));
     });
 }
 
