@@ -38,6 +38,7 @@ pub mod accel;
 pub mod bxdf;
 pub mod camera;
 mod clock;
+mod file;
 pub mod film;
 pub mod geometry;
 pub mod image;

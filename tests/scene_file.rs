@@ -414,7 +414,7 @@ fn wrong_types() {
         ("[shape.s]\nobj = 3", "s.toml:2:7: `shape.s.obj` is 3, expected a text in quotes"),
     ]);
     let long = format!("[camera]\nfov = \"{}\"", "ü".repeat(100));
-    let found = format!("\"{}…", "ü".repeat(58));
+    let found = format!("\"{}…{}\"", "ü".repeat(29), "ü".repeat(28));
     let message =
         format!("s.toml:2:7: `camera.fov` is {found}, expected degrees above 0 and below 180");
     assert_eq!(refused(&long, &[]), message);
@@ -528,6 +528,51 @@ fn values_out_of_range() {
             "s.toml:2:10: `shape.s.rotate` is [0, 0, 0, 90], expected [x, y, z, degrees], an axis that is not 0 and an angle, all finite",
         ),
     ]);
+}
+
+/// Names of any length and with any characters are one line of readable length, wherever they stand. Seen to fail with
+/// names shown as they are.
+#[test]
+fn names_are_escaped_and_shortened() {
+    let long = "k".repeat(100_000);
+    let part = format!("{}…{}", "k".repeat(30), "k".repeat(29));
+    let text = format!("[camera]\n{long} = 3");
+    let keys =
+        "`type`, `eye`, `look_at`, `up`, `handedness`, `fov`, `lens_radius` or `focal_distance`";
+    assert_eq!(
+        refused(&text, &[]),
+        format!("s.toml:2:1: unknown key `{part}` in [camera]; expected {keys}")
+    );
+    let set = format!("camera.{long}=3");
+    let set_part = format!("camera.{}…{}=3", "k".repeat(121), "k".repeat(125));
+    assert_eq!(
+        refused("", &[&set]),
+        format!("--set {set_part}: unknown key `{part}` in [camera]; expected {keys}")
+    );
+    all_refused(&[
+        (
+            &format!("[material.{long}]\ntype = \"{long}\""),
+            &format!(
+                "s.toml:2:8: `material.{part}.type` is \"{}…{}\", expected \"matte\"",
+                "k".repeat(29),
+                "k".repeat(28)
+            ),
+        ),
+        (
+            "[material.\"\\u001b\\n\\u202e\"]\ntype = \"matte\"\nkd = \"\\u001b\\n\\u202e\"",
+            "s.toml:3:6: the scene has no texture `\\u{1b}\\n\\u{202e}`",
+        ),
+        (
+            "[material.\"\\u001b\\n\\u202e\"]\ntype = \"matte\"\nkd = true",
+            "s.toml:3:6: `material.\"\\u{1b}\\n\\u{202e}\".kd` is true, expected a texture's name or \
+             [red, green, blue], each from 0 to 1",
+        ),
+    ]);
+    let path = Path::new("a\n\u{1b}[31m\u{2066}.toml");
+    let error = parse_scene(path, "fov = ", &[]).err().unwrap().to_string();
+    assert!(error.starts_with("a\\n\\u{1b}[31m\\u{2066}.toml:1:7: not valid TOML: "), "{error}");
+    let error = lobe::shape::parse_obj("a\n\u{1b}.obj", &b""[..]).unwrap_err().to_string();
+    assert!(error.starts_with("a\\n\\u{1b}.obj: has no faces"), "{error}");
 }
 
 #[test]
@@ -695,6 +740,28 @@ fn files_that_cannot_be_read() {
     assert_eq!(message("no such.toml".as_ref()), "no such.toml: there is no such file");
     let name = folder.display();
     assert_eq!(message(&folder), format!("{name}: is a directory, expected a scene file"));
+
+    // Seen to fail with any size read.
+    let large = folder.join("large.toml");
+    std::fs::File::create(&large).unwrap().set_len((128 << 20) + 1).unwrap();
+    assert_eq!(
+        message(&large),
+        format!(
+            "{}: cannot be read: it is larger than 128 MiB, the most that is read",
+            large.display()
+        )
+    );
+    std::fs::remove_file(&large).unwrap();
+}
+
+/// Seen to fail with files opened whatever they are: a pipe without a writer is never opened, and a device may never end.
+#[cfg(unix)]
+#[test]
+fn only_ordinary_files_are_read() {
+    let error = read_scene("/dev/null".as_ref(), &[]).err().unwrap().to_string();
+    let expected =
+        "/dev/null: cannot be read: it is a pipe, a socket or a device, expected an ordinary file";
+    assert_eq!(error, expected);
 }
 
 /// The project's scenes, without the dragon's mesh.

@@ -1,11 +1,10 @@
-//! Any text as a scene file: an error of one line that names the place, or a scene.
+//! Any text as a scene file, which is rendered if it is one.
 #![no_main]
+
+#[path = "../checks/scenes.rs"]
+#[allow(dead_code)]
+mod checks;
 
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|text: &str| {
-    if let Err(error) = lobe::scene_file::parse_scene("fuzz.toml".as_ref(), text, &[]) {
-        let message = error.to_string();
-        assert!(message.starts_with("fuzz.toml") && !message.contains('\n'), "{message}");
-    }
-});
+fuzz_target!(|text: &str| checks::scene(text));

@@ -3,6 +3,7 @@
 use std::error::Error;
 
 use super::hint::hint;
+use super::shown::Shown;
 use super::tree::Mark;
 
 /// A problem and its position. `Display` shows the problem only: a caller that has the text behind the [`Mark`] can
@@ -91,6 +92,6 @@ impl Problem {
     /// A reference to an undefined name; `known` are the defined names.
     pub fn unknown_name<'a>(kind: &str, name: &str, known: impl Iterator<Item = &'a str>) -> Self {
         let hint = hint(name, known);
-        Self::UnknownName { kind: kind.into(), name: name.escape_debug().to_string(), hint }
+        Self::UnknownName { kind: kind.into(), name: Shown::name(name).to_string(), hint }
     }
 }

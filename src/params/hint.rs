@@ -1,18 +1,27 @@
 //! [`hint`]: suggestions for a misspelt name.
 
+use super::shown::Shown;
+
 /// Maximum number of names in a hint.
-const LISTED: usize = 12;
+const LISTED: usize = 20;
+
+/// Maximum length of names that are compared, in bytes. The time grows with its square.
+const COMPARED: usize = 100;
 
 /// Suffix of an error message: the nearest known name, or all known names if none is near.
 pub fn hint<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
     let known: Vec<&str> = known.collect();
     let lower = name.to_lowercase();
-    let distances = known.iter().map(|k| (strsim::osa_distance(&lower, &k.to_lowercase()), *k));
+    let near_length = |k: &&&str| name.len() <= COMPARED && k.len() <= COMPARED;
+    let distances = known
+        .iter()
+        .filter(near_length)
+        .map(|k| (strsim::osa_distance(&lower, &k.to_lowercase()), *k));
     // As in rustc: up to a third of the letters may differ, and one in any case.
     let is_near = |&(distance, k): &(usize, &str)| {
         3 * distance <= name.chars().count().max(k.chars().count()).max(3)
     };
-    let quoted = |name: &&str| format!("`{}`", name.escape_debug());
+    let quoted = |name: &&str| format!("`{}`", Shown::name(name));
     match distances.min_by_key(|&(distance, _)| distance).filter(is_near) {
         Some((_, nearest)) => format!("; did you mean {}?", quoted(&nearest)),
         None if known.is_empty() => String::new(),

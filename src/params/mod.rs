@@ -53,6 +53,7 @@ mod kind;
 mod limits;
 mod param;
 mod quantity;
+mod shown;
 mod table;
 mod tree;
 
@@ -64,5 +65,7 @@ pub use kind::{AnySection, Kind, Section};
 pub use limits::Limits;
 pub use param::Param;
 pub use quantity::{Direction, Rotation, Scale};
+pub(crate) use shown::shortened;
+pub use shown::{Shown, quoted};
 pub use table::{Document, Table};
 pub use tree::{Entry, Mark, Node, Value};

@@ -7,6 +7,7 @@ use super::error::{Fault, Problem};
 use super::hint::hint;
 use super::key::{AnyKey, Key};
 use super::param::Param;
+use super::shown::{Shown, quoted, shortened};
 use super::tree::{Entry, Mark, Node, Value};
 
 /// A tree of values, and the folder of each source, against which its relative paths are resolved.
@@ -105,7 +106,8 @@ impl<'a> Table<'a> {
         self.read = RefCell::new(vec![selector]);
         // The keys of a table depend on its kind, so name it in the message.
         if let Some(kind) = self.node.get(selector) {
-            self.title = format!("{} of {selector} {}", self.title, kind.value);
+            let kind = kind.value.to_string();
+            self.title = format!("{} of {selector} {}", self.title, Shown::name(&kind));
         }
         self.refuse_unknown()?;
         self.title = format!("[{}]", self.name);
@@ -117,7 +119,7 @@ impl<'a> Table<'a> {
         let unknown = self.node.entries().iter().find(is_unknown);
         unknown.map_or(Ok(()), |Entry { key, mark, .. }| {
             let hint = hint(key, self.keys.iter().copied());
-            let (key, table) = (key.escape_debug().to_string(), self.title.clone());
+            let (key, table) = (Shown::name(key).to_string(), self.title.clone());
             Err(Fault { mark: *mark, problem: Problem::UnknownKey { key, table, hint } })
         })
     }
@@ -192,22 +194,19 @@ impl<'a> Table<'a> {
     }
 
     pub(super) fn wrong(&self, key: &str, node: &Node, found: String, expected: String) -> Fault {
-        let mut found = found;
-        if found.chars().count() > 60 {
-            found = found.chars().take(59).chain(['…']).collect();
-        }
+        let found = shortened(&found).into_owned();
         let key = full_name(&self.name, key);
         Fault { mark: node.mark, problem: Problem::Value { key, found, expected } }
     }
 }
 
-/// Full name of a key in the table `table`, in the syntax of a scene file.
+/// Full name of a key in the table `table`, in the syntax of a scene file; of long keys a part.
 fn full_name(table: &str, key: &str) -> String {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     let dot = if table.is_empty() { "" } else { "." };
     if !key.is_empty() && key.chars().all(is_bare) {
-        format!("{table}{dot}{key}")
+        format!("{table}{dot}{}", shortened(key))
     } else {
-        format!("{table}{dot}{key:?}")
+        format!("{table}{dot}{}", quoted(key))
     }
 }

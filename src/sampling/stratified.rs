@@ -30,6 +30,7 @@ impl StratifiedSampler {
     /// images.
     pub fn new(samples_per_set: u32, seed: u64) -> Self {
         let samples_per_set = samples_per_set.max(1);
+        // With at most columns² + 2 columns samples there are no more cells: they fit into 32 bits, as samples do.
         let columns = samples_per_set.isqrt();
         let rows = samples_per_set.div_ceil(columns);
         let (jitter_seed, order_seed) = (mix(seed), mix(!seed));
@@ -92,3 +93,22 @@ pub(super) const KIND: Kind<Make> = Kind {
         make: |sets| Box::new(StratifiedSampler::new(sets.samples_per_set, sets.seed)),
     },
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Seen to fail with one column more.
+    #[test]
+    fn cells_of_any_number_of_samples_fit_into_32_bits() {
+        let ends = [1, 2, 3, 4, u32::MAX].into_iter();
+        let squares = [2_u32, 3, 1000, 65_534, 65_535].into_iter();
+        let around =
+            squares.flat_map(|n| [n * n - 1, n * n, n * n + 1, n * (n + 1), n * (n + 1) + 1]);
+        for samples in ends.chain(around) {
+            let StratifiedSampler { columns, rows, .. } = StratifiedSampler::new(samples, 0);
+            let cells = u64::from(columns) * u64::from(rows);
+            assert!((u64::from(samples)..=u32::MAX.into()).contains(&cells), "{samples}: {cells}");
+        }
+    }
+}

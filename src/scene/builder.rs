@@ -9,6 +9,7 @@ use crate::accel::{Accel, InstructionSet};
 use crate::clock::Stopwatch;
 use crate::light::{AreaLight, Light};
 use crate::material::{Material, MatteMaterial};
+use crate::params::quoted;
 use crate::shape::{MeshError, TriangleMesh};
 use crate::spectrum::Spectrum;
 
@@ -17,7 +18,11 @@ use crate::spectrum::Spectrum;
 #[non_exhaustive]
 pub enum SceneError {
     /// A shape refers to a material that the scene does not have.
-    #[error("shape {shape:?} refers to material {material:?}, which the scene does not have")]
+    #[error(
+        "shape {} refers to material {}, which the scene does not have",
+        quoted(shape),
+        quoted(material)
+    )]
     UnknownMaterial {
         /// The shape's name.
         shape: String,
@@ -28,7 +33,10 @@ pub enum SceneError {
     #[error("the scene has {0} triangles, more than {max}", max = Accel::MAX_TRIANGLES)]
     TooManyTriangles(usize),
     /// An [`Emission`] is negative or not finite.
-    #[error("shape {shape:?} emits {radiance:?}: each band has to be finite and at least 0")]
+    #[error(
+        "shape {} emits {radiance:?}: each band has to be finite and at least 0",
+        quoted(shape)
+    )]
     Emission {
         /// The shape.
         shape: String,
@@ -36,7 +44,7 @@ pub enum SceneError {
         radiance: [f32; 3],
     },
     /// A mesh failed [`TriangleMesh::check`].
-    #[error("shape {0:?}: {1}")]
+    #[error("shape {}: {}", quoted(.0), .1)]
     Mesh(String, MeshError),
 }
 

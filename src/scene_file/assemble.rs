@@ -1,5 +1,6 @@
 //! Conversion of a document to a scene.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::{Affine3A, Quat, UVec2};
@@ -147,9 +148,10 @@ pub fn build(
         };
         Fault::new(document.root.follow(&keys).mark, error)
     };
+    let known: BTreeSet<&str> = materials.iter().map(|(name, _)| name.as_str()).collect();
     for (material, mark) in shapes.iter().filter_map(|(_, shape)| shape.material.as_ref()) {
-        if materials.iter().all(|(known, _)| known != material) {
-            let known = materials.iter().map(|(known, _)| known.as_str());
+        if !known.contains(material.as_str()) {
+            let known = materials.iter().map(|(name, _)| name.as_str());
             let problem = Problem::unknown_name(sections::MATERIAL.key, material, known);
             return Err(Fault { mark: *mark, problem });
         }

@@ -4,7 +4,7 @@ use std::fmt::{self, Display, Formatter};
 use std::io;
 use std::path::PathBuf;
 
-use crate::params::Problem;
+use crate::params::{Problem, Shown};
 
 /// Why a scene file cannot be read. Each message is one sentence that begins with the position:
 /// ``scene.toml:3:1: unknown key `fvo` in [camera]; did you mean `fov`?``
@@ -12,7 +12,7 @@ use crate::params::Problem;
 #[non_exhaustive]
 pub enum SceneFileError {
     /// The file cannot be read.
-    #[error("{}: {}", path.display(), unreadable(source))]
+    #[error("{}: {}", Shown::path(path), unreadable(source))]
     Unreadable {
         /// The path, as passed by the caller.
         path: PathBuf,
@@ -60,9 +60,9 @@ pub enum Place {
 impl Display for Place {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         match self {
-            Self::File { path, line, column } => write!(f, "{}:{line}:{column}", path.display()),
+            Self::File { path, line, column } => write!(f, "{}:{line}:{column}", Shown::path(path)),
             Self::Override { text } if text.is_empty() => f.write_str("--set ''"),
-            Self::Override { text } => write!(f, "--set {text}"),
+            Self::Override { text } => write!(f, "--set {}", Shown::line(text)),
         }
     }
 }
@@ -72,12 +72,12 @@ impl Display for Place {
 #[non_exhaustive]
 pub enum TextProblem {
     /// The text is not TOML.
-    #[error("not valid TOML: {0}")]
+    #[error("not valid TOML: {}", Shown::line(.0))]
     Toml(String),
     /// An override is not of the form KEY=VALUE.
     #[error("expected KEY=VALUE, as in camera.fov=40")]
     NoAssignment,
     /// The value of an override is text without quotes.
-    #[error("text values need quotes: --set '{0}'")]
+    #[error("text values need quotes: --set '{}'", Shown::line(.0))]
     Unquoted(String),
 }

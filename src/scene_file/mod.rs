@@ -20,6 +20,7 @@ pub use sections::SECTIONS;
 
 use crate::accel::InstructionSet;
 use crate::clock::Stopwatch;
+use crate::file;
 use crate::params::{Document, Fault, Mark};
 use crate::render::RenderSettings;
 use crate::scene::{Scene, View};
@@ -65,7 +66,8 @@ pub struct LoadReport {
 /// Reads the scene file at `path` with `overrides`. See [`parse_scene`].
 ///
 /// # Errors
-/// If the file cannot be read, and those of [`parse_scene`]. Messages name the file by `path`.
+/// If the file cannot be read, is not an ordinary one, or has more than 128 MiB, and those of [`parse_scene`]. Messages
+/// name the file by `path`.
 pub fn read_scene(path: &Path, overrides: &[&str]) -> Result<LoadedScene, SceneFileError> {
     read_scene_for(InstructionSet::fastest(), path, overrides)
 }
@@ -99,7 +101,7 @@ pub fn read_settings(path: &Path, overrides: &[&str]) -> Result<RenderSettings, 
 /// column to the faults that `read` returns.
 ///
 /// # Errors
-/// If the file cannot be read or is not TOML, and those of `read`.
+/// If the file cannot be read, is not an ordinary one, has more than 128 MiB, or is not TOML, and those of `read`.
 pub fn read_document<T>(
     path: &Path,
     read: impl FnOnce(&Document) -> Result<T, Fault>,
@@ -117,9 +119,12 @@ fn read_with<T>(
     source.place(read(&source.parse()?))
 }
 
+/// Maximum size of a file, in MiB: for scenes of more than three million materials.
+const MOST: u64 = 128;
+
 fn read_text(path: &Path) -> Result<String, SceneFileError> {
     let unreadable = |source| SceneFileError::Unreadable { path: path.to_owned(), source };
-    String::from_utf8(std::fs::read(path).map_err(unreadable)?).map_err(|error| {
+    String::from_utf8(file::read(path, MOST).map_err(unreadable)?).map_err(|error| {
         let offset = error.utf8_error().valid_up_to();
         let place = document::file_place(path, error.as_bytes(), offset);
         let problem = TextProblem::Toml("the text is not UTF-8".into());

@@ -1,5 +1,7 @@
 //! Overrides: `KEY=VALUE` in TOML, merged into a scene file.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::error::TextProblem;
 use super::sections::SECTIONS;
 use super::toml_tree::parse;
@@ -21,15 +23,14 @@ pub fn apply(root: &mut Node, text: &str, source: usize) -> Result<(), Fault> {
     }
     for (kind, node) in new.entries().iter().map(|entry| (&entry.key, &entry.node)) {
         if SECTIONS.iter().any(|section| section.is_named() && section.key() == kind) {
-            let known = || root.get(kind).map_or(&[][..], Node::entries).iter();
-            let unknown =
-                node.entries().iter().find(|entry| known().all(|known| known.key != entry.key));
-            if let Some(entry) = unknown {
-                let known = known().map(|known| known.key.as_str());
-                return Err(Fault {
-                    mark,
-                    problem: Problem::unknown_name(kind, &entry.key, known),
-                });
+            let known = || root.get(kind).map_or(&[][..], Node::entries).iter().map(|e| &*e.key);
+            let mut unknown: BTreeSet<&str> = node.entries().iter().map(|e| &*e.key).collect();
+            for name in known() {
+                unknown.remove(name);
+            }
+            if let Some(entry) = node.entries().iter().find(|e| unknown.contains(&*e.key)) {
+                let problem = Problem::unknown_name(kind, &entry.key, known());
+                return Err(Fault { mark, problem });
             }
         }
     }
@@ -55,12 +56,17 @@ fn has_leaf(node: &Node) -> bool {
 fn merge(old: &mut Node, new: Node) {
     match (&mut old.value, new.value) {
         (Value::Table(old), Value::Table(new)) => {
-            for entry in new {
-                match old.iter_mut().find(|known| known.key == entry.key) {
-                    Some(known) => merge(&mut known.node, entry.node),
-                    None => old.push(entry),
+            // The file's table may be large, so it is searched once for all keys of the override.
+            let places = new.iter().enumerate().map(|(place, entry)| (entry.key.clone(), place));
+            let places: BTreeMap<String, usize> = places.collect();
+            let mut new: Vec<_> = new.into_iter().map(Some).collect();
+            for known in &mut *old {
+                let same = places.get(&known.key).and_then(|&place| new[place].take());
+                if let Some(entry) = same {
+                    merge(&mut known.node, entry.node);
                 }
             }
+            old.extend(new.into_iter().flatten());
         }
         (_, value) => *old = Node { mark: new.mark, value },
     }

@@ -25,7 +25,9 @@ mod triangle;
 pub use check::MeshError;
 pub use kind::{Load, Read};
 pub use mesh::TriangleMesh;
-pub use obj::{ObjAttribute, ObjError, ObjMesh, ObjProblem, ObjReport, parse_obj, read_obj};
+pub use obj::{
+    ObjAttribute, ObjError, ObjMesh, ObjProblem, ObjReport, SkippedLines, parse_obj, read_obj,
+};
 pub(crate) use triangle::{FAR, triangle_normals};
 pub use triangle::{ShearedRay, TriangleHit, triangle_normal};
 

@@ -1,7 +1,9 @@
 //! [`TextureKey`] and [`Textures`]: how scene files refer to textures.
 
+use std::collections::BTreeMap;
+
 use super::traits::{Texture, TextureHandle};
-use crate::params::{AnyKey, Fault, Key, Param, Problem, Table, Value};
+use crate::params::{AnyKey, Fault, Key, Param, Problem, Table, Value, quoted};
 use crate::spectrum::Spectrum;
 
 /// Function that reads a kind of texture from a scene file. It may use textures defined earlier.
@@ -93,12 +95,12 @@ impl<T: Param> AnyKey for TextureKey<T> {
 
 /// The textures of a scene, by name.
 #[derive(Clone, Default)]
-pub struct Textures(Vec<(String, AnyTexture)>);
+pub struct Textures(BTreeMap<String, AnyTexture>);
 
 impl Textures {
-    /// Adds a texture.
+    /// Adds a texture, or replaces the one of that name.
     pub fn add(&mut self, name: impl Into<String>, texture: AnyTexture) {
-        self.0.push((name.into(), texture));
+        self.0.insert(name.into(), texture);
     }
 
     /// The texture that the key's value names, or a constant texture if the value is a number or a colour.
@@ -146,9 +148,8 @@ impl Textures {
             Value::Number(_) | Value::Array(_) => return Ok(None),
             other => return Err(table.unfit(key, node, other.to_string(), key.expected())),
         };
-        let Some((_, texture)) = self.0.iter().find(|(known, _)| known == name) else {
-            let known = self.0.iter().map(|(known, _)| known.as_str());
-            let problem = Problem::unknown_name("texture", name, known);
+        let Some(texture) = self.0.get(name) else {
+            let problem = Problem::unknown_name("texture", name, self.0.keys().map(String::as_str));
             return Err(Fault { mark: node.mark, problem });
         };
         let found = T::of(texture);
@@ -156,7 +157,7 @@ impl Textures {
         let value = found.and_then(|texture| texture.constant()).and_then(|value| value.to_value());
         let is_fit = value.is_none_or(|value| constant.accepts(&value));
         found.filter(|_| is_fit).cloned().map(Some).ok_or_else(|| {
-            let found = format!("the texture {name:?}, {}", describe(texture));
+            let found = format!("the texture {}, {}", quoted(name), describe(texture));
             table.unfit(key, node, found, constant.expected())
         })
     }

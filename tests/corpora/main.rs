@@ -3,6 +3,7 @@
 
 mod images;
 mod mutate;
+mod scenes;
 
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -15,7 +16,7 @@ const TRIALS: u64 = 300;
 
 /// Checks all files of a corpus and their changed copies. What fails is named by file and trial: a test that is to look at
 /// one again calls `mutate` with `Random::new(file, trial)`.
-fn drive(corpus: &str, check: fn(&[u8])) {
+fn drive(corpus: &str, check: impl Fn(&[u8])) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(corpus);
     let entries = fs::read_dir(&folder).unwrap_or_else(|error| panic!("{folder:?}: {error}"));
     let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
@@ -23,16 +24,16 @@ fn drive(corpus: &str, check: fn(&[u8])) {
     let files: Vec<Vec<u8>> = paths.iter().map(|path| fs::read(path).unwrap()).collect();
     assert!(!files.is_empty(), "{folder:?} is empty");
     for (file, (path, bytes)) in paths.iter().zip(&files).enumerate() {
-        run(check, bytes, || format!("{path:?}"));
+        run(&check, bytes, || format!("{path:?}"));
         for trial in 0..TRIALS {
             let changed = mutate(bytes, &files, &mut Random::new(file as u64, trial));
-            run(check, &changed, || format!("{path:?}, the file of index {file}, trial {trial}"));
+            run(&check, &changed, || format!("{path:?}, the file of index {file}, trial {trial}"));
         }
     }
 }
 
 #[track_caller]
-fn run(check: fn(&[u8]), bytes: &[u8], name: impl Fn() -> String) {
+fn run(check: impl Fn(&[u8]), bytes: &[u8], name: impl Fn() -> String) {
     if catch_unwind(AssertUnwindSafe(|| check(bytes))).is_err() {
         panic!("{}", name());
     }

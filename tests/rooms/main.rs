@@ -27,9 +27,10 @@ use imports::{Found, imports};
 use modules::Files;
 
 /// The rooms from the ground up.
-const ROOMS: [&str; 22] = [
+const ROOMS: [&str; 23] = [
     "spectrum",
     "clock",
+    "file",
     "simd",
     "geometry",
     "params",

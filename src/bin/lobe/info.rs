@@ -47,6 +47,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         }
         summary.add("shape", line);
     }
+    summary.add_warnings(&scene, &report);
     summary.add_meshes(&scene);
     let accel = scene.accel();
     if !accel.bounds().is_empty() {

@@ -22,6 +22,7 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
+use lobe::params::Shown;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -57,7 +58,7 @@ enum Command {
 
 fn main() -> ExitCode {
     let success = |()| ExitCode::SUCCESS;
-    let result: Result<ExitCode, Box<dyn Error>> = match Arguments::parse().command {
+    let result: Result<ExitCode, Box<dyn Error>> = match parse().command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Info(arguments) => info::run(&arguments).map(success),
         Command::Merge(arguments) => merge::run(&arguments).map(success),
@@ -69,8 +70,24 @@ fn main() -> ExitCode {
         Ok(code) => code,
         Err(error) => {
             // If stderr is closed, the exit code still reports the failure.
-            let _ = writeln!(std::io::stderr(), "error: {error}");
+            let _ = writeln!(std::io::stderr(), "error: {}", lines(&error.to_string()));
             ExitCode::FAILURE
         }
     }
+}
+
+/// The arguments of the command line. Exits with code 2 where they are wrong, or after printing help.
+fn parse() -> Arguments {
+    Arguments::try_parse().unwrap_or_else(|error| {
+        // clap's message repeats arguments as they are: that about their shown forms is safe to print.
+        let shown =
+            std::env::args_os().map(|text| Shown::line(&text.to_string_lossy()).to_string());
+        Arguments::try_parse_from(shown).err().unwrap_or(error).exit()
+    })
+}
+
+/// A message of several lines: what errors of other packages quote is escaped here, except for line ends.
+fn lines(message: &str) -> String {
+    let lines: Vec<_> = message.lines().map(|line| Shown::whole(line).to_string()).collect();
+    lines.join("\n")
 }

@@ -7,6 +7,7 @@ use clap::Args;
 use lobe::film::Film;
 use lobe::image::{Display, Image, ImageFile, Metadata, PartMetadata};
 use lobe::params::Choice;
+use lobe::params::Shown;
 
 use crate::identity::difference;
 use crate::output::Output;
@@ -66,7 +67,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let (mut film, mut non_finite) = (None, 0);
     for Part { path, file, part, .. } in &parts {
         let (picture, _) = file.decode_part()?;
-        let damaged = || format!("`{}` lacks what its film kept: render it again", path.display());
+        let damaged =
+            || format!("`{}` lacks what its film kept: render it again", Shown::path(path));
         let of_part = Film::from_planes(picture.resolution, picture.window, &picture.planes)?;
         let of_part = of_part.ok_or_else(damaged)?;
         non_finite += part.non_finite;
@@ -109,15 +111,15 @@ fn check(parts: &[Part]) -> Result<(), Box<dyn Error>> {
     let (first, mut end) = (&parts[0], 0);
     for (index, Part { path, file, part, .. }) in parts.iter().enumerate() {
         if let Some(difference) = difference(&first.part.identity, &part.identity) {
-            let (path, first) = (path.display(), first.path.display());
+            let (path, first) = (Shown::path(path), Shown::path(&first.path));
             let what = "is not of the render that";
             return Err(format!("`{path}` {what} `{first}` is of: {difference}").into());
         }
         if file.size() != first.file.size() || part.all_samples != first.part.all_samples {
-            return Err(format!("`{}` is damaged: render it again", path.display()).into());
+            return Err(format!("`{}` is damaged: render it again", Shown::path(path)).into());
         }
         if part.samples.start < end {
-            let (a, b) = (parts[index - 1].path.display(), path.display());
+            let (a, b) = (Shown::path(&parts[index - 1].path), Shown::path(path));
             let sample = part.samples.start;
             return Err(format!("`{a}` and `{b}` both have sample {sample}: leave one out").into());
         }

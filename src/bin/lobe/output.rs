@@ -9,6 +9,7 @@ use lobe::image::{
     Display, EncodeError, Metadata, Picture, check_writable, exr_bytes, png_bytes, write_file,
     write_files,
 };
+use lobe::params::Shown;
 
 /// An output file. The extension of its name selects the format.
 pub struct Output {
@@ -47,7 +48,7 @@ impl Output {
             Some("png") => Format::Png,
             Some("exr") => Format::Exr,
             _ => {
-                let path = path.display();
+                let path = Shown::path(&path);
                 return Err(
                     format!("cannot write `{path}`: its name has to end in .png or .exr").into()
                 );
@@ -62,7 +63,7 @@ impl Output {
         let real = |path: &Path| fs::canonicalize(path).ok();
         let read: Vec<_> = read.iter().filter_map(|path| real(path)).collect();
         for (index, Self { path, .. }) in outputs.iter().enumerate() {
-            let shown = path.display();
+            let shown = Shown::path(&path);
             if real(path).is_some_and(|path| read.contains(&path)) {
                 let what = format!("cannot write `{shown}`: it is read; give another name");
                 return Err(what.into());
@@ -118,7 +119,7 @@ impl Output {
             let bytes = output.bytes(picture, display, metadata).ok()?;
             output.other_names().find(|path| write_file(path, &bytes).is_ok())
         });
-        let kept: Vec<_> = kept.map(|path| format!("`{}`", path.display())).collect();
+        let kept: Vec<_> = kept.map(|path| format!("`{}`", Shown::path(&path))).collect();
         Err(match kept.as_slice() {
             [] => format!("{error}; the picture could not be kept anywhere else").into(),
             kept => format!("{error}; the picture is kept in {}", kept.join(" and ")).into(),

@@ -6,6 +6,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use lobe::image::{WriteError, check_writable, write_file_with};
+use lobe::params::Shown;
 use lobe::render::Checkpoint;
 
 use crate::identity::difference;
@@ -31,7 +32,7 @@ impl State {
 
     /// The bytes of the checkpoint; `None` if there is no file.
     pub fn load(&self) -> Result<Option<Vec<u8>>, Box<dyn Error>> {
-        let path = self.path.display();
+        let path = Shown::path(&self.path);
         let mut bytes = match fs::read(&self.path) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),

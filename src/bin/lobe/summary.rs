@@ -3,10 +3,16 @@
 use std::fmt::Display;
 use std::io::{self, Write};
 
+use lobe::Spectrum;
 use lobe::image::{Picture, Window};
+use lobe::light::BoundingSphere;
+use lobe::params::Shown;
 use lobe::scene::{FilmSettings, Scene};
+use lobe::scene_file::LoadReport;
+use lobe::shape::SkippedLines;
 
-/// Lines for people and programs alike: a key without blanks, then the value, then its unit if any. Keys may repeat.
+/// Lines for people and programs alike: a key without blanks, then the value, then its unit if any. Keys may repeat. Values
+/// are printed as [`Shown::whole`], so each stays in its line.
 #[derive(Default)]
 pub struct Summary(Vec<(&'static str, String)>);
 
@@ -48,10 +54,36 @@ impl Summary {
         }
     }
 
+    /// Adds a line `warning` for each thing about a scene that is allowed, but usually a mistake.
+    pub fn add_warnings(&mut self, scene: &Scene, report: &LoadReport) {
+        for ((name, _), odd) in scene.shapes().zip(&report.meshes) {
+            let mut warn = |SkippedLines { count, first, .. }, what: &str| {
+                if count > 0 {
+                    self.add(
+                        "warning",
+                        format!("{name}: {count} {what}, the first in line {first}, left out"),
+                    );
+                }
+            };
+            warn(odd.short_faces, "faces with fewer than 3 corners");
+            warn(odd.unknown_lines, "lines with an unknown keyword");
+        }
+        if scene.shapes().next().is_none() {
+            self.add("warning", "the scene has no shapes");
+        }
+        // Some size, since the power of a sky grows with the scene.
+        let bounds = BoundingSphere { radius: 1.0, ..scene.bounding_sphere() };
+        let is_dark = scene.lights().iter().all(|l| l.power(&bounds) == Some(Spectrum::BLACK));
+        if is_dark {
+            self.add("warning", "the scene has no light: the picture will be black");
+        }
+    }
+
     /// Prints all lines, with the values aligned. A closed pipe is no error: the reader has seen enough.
     pub fn print(&self) -> io::Result<()> {
         let width = self.0.iter().map(|(key, _)| key.len()).max().unwrap_or(0);
-        let lines = self.0.iter().map(|(key, value)| format!("{key:width$}  {value}\n"));
+        let lines =
+            self.0.iter().map(|(key, value)| format!("{key:width$}  {}\n", Shown::whole(value)));
         let mut stdout = io::stdout().lock();
         let printed =
             stdout.write_all(lines.collect::<String>().as_bytes()).and_then(|()| stdout.flush());

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::super::Errors;
+use crate::params::Shown;
 
 /// Time and errors of one picture of a method.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +29,7 @@ pub struct Run {
 
 /// A line of `runs.csv` that cannot be parsed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is not a line of runs.csv: expected {header}", header = Run::HEADER)]
+#[error("`{}` is not a line of runs.csv: expected {header}", Shown::line(.0), header = Run::HEADER)]
 pub struct ParseRunError(String);
 
 impl Run {

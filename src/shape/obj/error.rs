@@ -4,9 +4,10 @@ use std::fmt::{self, Display, Formatter};
 use std::io;
 
 use crate::geometry::float::MAX_COORDINATE;
+use crate::params::{Shown, shortened};
 
 /// Why an OBJ file was refused. Each message is one sentence. It begins with the name of the file
-/// and, where it applies, the line: `wing.obj:12: face has 2 of the 3 corners it needs at least`.
+/// and, where it applies, the line: `wing.obj:12: v has 2 of the 3 numbers it needs`.
 ///
 /// Lines are counted from 1 and end in LF, CR LF or a lone CR. A line that is continued by a
 /// backslash has the number of its first part.
@@ -14,19 +15,19 @@ use crate::geometry::float::MAX_COORDINATE;
 #[non_exhaustive]
 pub enum ObjError {
     /// The file does not exist.
-    #[error("{name}: there is no such file")]
+    #[error("{}: there is no such file", Shown::line(name))]
     Missing {
         /// The file, as the caller named it.
         name: String,
     },
     /// The path is a directory.
-    #[error("{name}: is a directory, expected an OBJ file")]
+    #[error("{}: is a directory, expected an OBJ file", Shown::line(name))]
     Directory {
         /// The file, as the caller named it.
         name: String,
     },
     /// Opening or reading the file failed.
-    #[error("{name}: cannot be read: {source}")]
+    #[error("{}: cannot be read: {source}", Shown::line(name))]
     Unreadable {
         /// The file, as the caller named it.
         name: String,
@@ -35,7 +36,8 @@ pub enum ObjError {
     },
     /// The file has no `f` line.
     #[error(
-        "{name}: has no faces: expected at least one line such as \"f 1 2 3\", found {}",
+        "{}: has no faces: expected at least one line such as \"f 1 2 3\", found {}",
+        Shown::line(name),
         Count(*vertices, ObjAttribute::Vertex)
     )]
     NoFaces {
@@ -45,7 +47,7 @@ pub enum ObjError {
         vertices: usize,
     },
     /// There are more elements of a kind than a `u32` can index.
-    #[error("{name}: has more than 4294967295 {what}: split it into several meshes")]
+    #[error("{}: has more than 4294967295 {what}: split it into several meshes", Shown::line(name))]
     TooLarge {
         /// The file, as the caller named it.
         name: String,
@@ -53,7 +55,7 @@ pub enum ObjError {
         what: &'static str,
     },
     /// A line is invalid.
-    #[error("{name}:{line}: {problem}")]
+    #[error("{}:{line}: {problem}", Shown::line(name))]
     Line {
         /// The file, as the caller named it.
         name: String,
@@ -71,6 +73,9 @@ pub enum ObjProblem {
     /// The file begins with the byte order mark of UTF-16.
     #[error("text is UTF-16, expected UTF-8: save the file in that encoding")]
     Utf16,
+    /// A line without its comments, but with the lines that continue it, is longer than 1 MiB.
+    #[error("line is longer than 1 MiB, which is the most an OBJ file may have: is it one?")]
+    LongLine,
     /// A line of numbers is not UTF-8.
     #[error("{key} line holds the byte 0x{byte:02X}, which is not UTF-8, expected numbers")]
     NotText {
@@ -94,7 +99,7 @@ pub enum ObjProblem {
     BadNumber {
         /// The kind of line.
         attribute: ObjAttribute,
-        /// The word, shortened to 40 characters.
+        /// The word, shortened to 60 characters.
         text: String,
     },
     /// A number is NaN, infinite, or out of the range of its attribute.
@@ -112,16 +117,10 @@ pub enum ObjProblem {
         /// Its numbers; the third of a texture coordinate is 0 and unused.
         found: [f32; 3],
     },
-    /// A face has fewer than three corners.
-    #[error("face has {found} of the 3 corners it needs at least")]
-    FewCorners {
-        /// How many corners it has.
-        found: usize,
-    },
     /// A corner of a face is not of the form v, v/vt, v//vn or v/vt/vn.
     #[error("face has {text:?} where a corner v, v/vt, v//vn or v/vt/vn is expected")]
     BadCorner {
-        /// The corner, shortened to 40 characters.
+        /// The corner, shortened to 60 characters.
         text: String,
     },
     /// An index is 0.
@@ -158,6 +157,14 @@ pub enum ObjProblem {
         /// Number of such elements above the face.
         count: usize,
     },
+}
+
+/// Why reading ended, before the error has a file name.
+pub(super) enum Failure {
+    Io(io::Error),
+    Line(u64, ObjProblem),
+    NoFaces(usize),
+    TooMany(&'static str),
 }
 
 /// A kind of element that an OBJ file lists and that faces refer to by index.
@@ -236,12 +243,11 @@ impl Display for Tuple<'_> {
     }
 }
 
-/// A word of the file for a message, shortened to 40 characters. If it is not UTF-8, that is the
+/// A word of the file for a message, shortened to 60 characters. If it is not UTF-8, that is the
 /// error: [`ObjProblem::NotText`], for a line with the keyword `key`.
 pub(super) fn excerpt(key: &'static str, word: &[u8]) -> Result<String, ObjProblem> {
     match str::from_utf8(word) {
-        Ok(text) if text.chars().count() > 40 => Ok(text.chars().take(39).chain(['…']).collect()),
-        Ok(text) => Ok(text.to_owned()),
+        Ok(text) => Ok(shortened(text).into_owned()),
         Err(e) => Err(ObjProblem::NotText { key, byte: word[e.valid_up_to()] }),
     }
 }

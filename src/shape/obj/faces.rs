@@ -2,6 +2,7 @@
 
 use super::error::{ObjAttribute, ObjProblem, excerpt};
 use super::lines::is_blank;
+use super::report::SkippedLines;
 
 /// Marks a corner without a texture coordinate or without a normal.
 pub(super) const NONE: u32 = u32::MAX;
@@ -18,6 +19,8 @@ pub(super) struct Faces {
     pub textures: Vec<[u32; 3]>,
     /// Normal indices of each triangle, or [`NONE`]. Empty until a corner has one.
     pub normals: Vec<[u32; 3]>,
+    /// Faces with fewer than three corners.
+    pub short: SkippedLines,
     /// Scratch: the corners of the current face, as vertex, texture coordinate and normal.
     corners: Vec<[u32; 3]>,
     /// References to elements after the face, to be checked at the end. Of each kind, only those
@@ -36,7 +39,8 @@ struct ForwardReference {
 
 impl Faces {
     /// Parses the face on `line`. `text` is what follows the `f`. `counts` are the numbers of
-    /// vertices, texture coordinates and normals above it.
+    /// vertices, texture coordinates and normals above it. A face with fewer than three corners is
+    /// counted and skipped.
     pub fn add(&mut self, text: &[u8], line: u64, counts: [usize; 3]) -> Result<(), ObjProblem> {
         self.corners.clear();
         let mut at = 0;
@@ -46,7 +50,8 @@ impl Faces {
             at += start + length;
         }
         if self.corners.len() < 3 {
-            return Err(ObjProblem::FewCorners { found: self.corners.len() });
+            self.short.add(line);
+            return Ok(());
         }
 
         for i in 1..self.corners.len() - 1 {

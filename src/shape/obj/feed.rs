@@ -2,10 +2,12 @@
 
 use std::io::{self, BufRead, ErrorKind, Read, Write};
 
-use super::error::{ObjAttribute, ObjProblem, excerpt};
+use super::error::{Failure, ObjAttribute, ObjProblem, excerpt};
 use super::faces::Faces;
+use super::keywords::is_ignored;
 use super::line_table::LineTable;
 use super::lines::{LogicalLines, is_blank};
+use super::report::SkippedLines;
 
 /// Corners in each closing face of the feed; the last may have fewer. Small faces are faster,
 /// because tobj looks each corner up in a hash table of its object.
@@ -17,7 +19,8 @@ pub(super) const CLOSING_CORNERS: usize = 1024;
 ///   parses the numbers.
 /// - `f` lines are parsed here, by [`Faces`]. Errors in indices need the line, and tobj would
 ///   renumber vertices by hashing each corner.
-/// - All other lines are dropped: names, materials, points, lines, curves.
+/// - All other lines are dropped: names, materials, points, lines, curves. Those with an unknown
+///   keyword are counted.
 ///
 /// tobj returns only the elements that faces refer to, in order of first use. So the feed ends with
 /// closing faces of its own, which refer to each element once, in the order of the file. Each is an
@@ -28,6 +31,8 @@ pub(super) struct Feed<R> {
     pub faces: Faces,
     /// The lines of vertices, texture coordinates and normals.
     pub line_tables: [LineTable; 3],
+    /// Lines with an unknown keyword.
+    pub unknown: SkippedLines,
     /// The text that tobj is reading.
     out: Vec<u8>,
     /// How many bytes of `out` tobj has read.
@@ -40,20 +45,13 @@ pub(super) struct Feed<R> {
     failure: Option<Failure>,
 }
 
-/// Why reading ended.
-pub(super) enum Failure {
-    Io(io::Error),
-    Line(u64, ObjProblem),
-    NoFaces(usize),
-    TooMany(&'static str),
-}
-
 impl<R: BufRead> Feed<R> {
     pub fn new(input: R) -> Self {
         Self {
             lines: LogicalLines::new(input),
             faces: Faces::default(),
             line_tables: Default::default(),
+            unknown: SkippedLines::default(),
             out: Vec::new(),
             taken: 0,
             origin: (ObjAttribute::Vertex, 0),
@@ -89,7 +87,7 @@ impl<R: BufRead> Feed<R> {
         self.taken = 0;
         while self.closing.is_none() {
             let counts = self.counts();
-            let Some((number, line)) = self.lines.next().map_err(Failure::Io)? else {
+            let Some((number, line)) = self.lines.next()? else {
                 self.finish(counts)?;
                 break;
             };
@@ -107,7 +105,12 @@ impl<R: BufRead> Feed<R> {
                 {
                     return Err(Failure::Line(number, ObjProblem::Utf16));
                 }
-                _ => continue,
+                _ => {
+                    if !is_ignored(word) {
+                        self.unknown.add(number);
+                    }
+                    continue;
+                }
             };
             cut(attribute, rest, &mut self.out).map_err(|p| Failure::Line(number, p))?;
             self.line_tables[attribute as usize].push(number);

@@ -64,7 +64,9 @@ pub(super) fn merge(faces: Faces, attributes: Attributes) -> Option<ObjMesh> {
         normals = Vec::new();
     }
     let unused_vertices = used.iter().filter(|&&used| !used).count();
-    let report = ObjReport { degenerate_triangles, unused_vertices };
+    let short_faces = faces.short;
+    let report =
+        ObjReport { degenerate_triangles, unused_vertices, short_faces, ..ObjReport::default() };
     Some(ObjMesh { mesh: TriangleMesh { positions, normals, uvs, indices }, report })
 }
 

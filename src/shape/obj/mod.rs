@@ -4,47 +4,48 @@ mod attributes;
 mod error;
 mod faces;
 mod feed;
+mod keywords;
 mod line_table;
 mod lines;
 mod merge;
 mod report;
 
-use std::fs::File;
 use std::io::{BufRead, BufReader, ErrorKind};
 use std::path::{Path, PathBuf};
 
 pub use error::{ObjAttribute, ObjError, ObjProblem};
-pub use report::{ObjMesh, ObjReport};
+pub use report::{ObjMesh, ObjReport, SkippedLines};
 
 use super::kind::{Load, Read};
+use crate::file;
 use crate::params::{Fault, Key, Kind, Table};
 use attributes::Attributes;
-use feed::{Failure, Feed};
+use error::Failure;
+use feed::Feed;
 
 /// Reads the OBJ file at `path` as one mesh. [`parse_obj`] says how.
 ///
 /// # Errors
-/// If the file does not exist or cannot be read, and all errors of [`parse_obj`]. Messages name the
+/// If the file does not exist, is not an ordinary one or cannot be read, and all errors of [`parse_obj`]. Messages name the
 /// file by `path`.
 pub fn read_obj(path: &Path) -> Result<ObjMesh, ObjError> {
     let name = path.display().to_string();
     let unreadable = |source: std::io::Error| match source.kind() {
         ErrorKind::NotFound => ObjError::Missing { name: name.clone() },
-        _ if path.is_dir() => ObjError::Directory { name: name.clone() },
+        ErrorKind::IsADirectory => ObjError::Directory { name: name.clone() },
         _ => ObjError::Unreadable { name: name.clone(), source },
     };
-    let file = File::open(path).map_err(unreadable)?;
-    match parse_obj(&name, BufReader::with_capacity(1 << 17, file)) {
-        Err(ObjError::Unreadable { source, .. }) => Err(unreadable(source)),
-        result => result,
-    }
+    let file = file::open(path).map_err(unreadable)?;
+    parse_obj(&name, BufReader::with_capacity(1 << 17, file))
 }
 
 /// Reads OBJ text as one mesh. `name` is the name of the file in messages.
 ///
 /// Only `v`, `vt`, `vn` and `f` lines are used. All objects and groups become one mesh. Names,
-/// materials, points, lines and curves are ignored, in whatever encoding they are.
-/// - Polygons are triangulated as fans around their first corner.
+/// materials, points, lines and curves are ignored, in whatever encoding they are. What is odd is
+/// counted in [`ObjReport`].
+/// - Polygons are triangulated as fans around their first corner. Faces with fewer than three
+///   corners are skipped and counted.
 /// - Indices count from 1, or if negative, backwards from the face. A face may refer to elements
 ///   that follow it.
 /// - Vertex i of the file is vertex i of the mesh. If corners at a vertex differ in texture
@@ -54,8 +55,10 @@ pub fn read_obj(path: &Path) -> Result<ObjMesh, ObjError> {
 ///   [`Vec2::ZERO`](glam::Vec2::ZERO). If no corner of the file has any, the mesh has none.
 /// - Numbers after the third of a vertex (w, or a colour) and after the second of a texture
 ///   coordinate are ignored. A missing second one is 0.
-/// - Lines end in LF, CR LF or CR. A comment may end any line, a backslash continues it, and the
-///   text may begin with a UTF-8 byte order mark.
+/// - Lines end in LF, CR LF or CR. A comment may end any line, a backslash continues it, and any
+///   line may begin with a UTF-8 byte order mark. Without comments, but with what continues it, a
+///   line has at most 1 MiB.
+/// - Lines with a keyword that the OBJ specification does not have are skipped and counted.
 ///
 /// ```
 /// let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4 # a quad\n";
@@ -69,7 +72,7 @@ pub fn read_obj(path: &Path) -> Result<ObjMesh, ObjError> {
 ///
 /// # Errors
 /// If reading fails; if a line is malformed, refers to an element that does not exist, or has a
-/// number that is not finite or out of range; if there is no face; if there are more vertices or
+/// number that is not finite or out of range; if there is no face with three corners; if there are more vertices or
 /// triangles than a `u32` can index.
 pub fn parse_obj(name: &str, reader: impl BufRead) -> Result<ObjMesh, ObjError> {
     read(reader).map_err(|failure| {
@@ -95,7 +98,8 @@ fn read(reader: impl BufRead) -> Result<ObjMesh, Failure> {
     let attributes = Attributes::collect(&models, &feed.line_tables)
         .map_err(|(line, problem)| Failure::Line(line, problem))?;
     drop(models);
-    let read = merge::merge(feed.faces, attributes).ok_or(Failure::TooMany("vertices"))?;
+    let mut read = merge::merge(feed.faces, attributes).ok_or(Failure::TooMany("vertices"))?;
+    read.report.unknown_lines = feed.unknown;
     debug_assert_eq!(read.mesh.check(), Ok(()));
     Ok(read)
 }

@@ -20,4 +20,27 @@ pub struct ObjReport {
     pub degenerate_triangles: usize,
     /// Vertices of the file that no face refers to. They are part of the mesh.
     pub unused_vertices: usize,
+    /// Faces with fewer than three corners. They are not part of the mesh.
+    pub short_faces: SkippedLines,
+    /// Lines whose first word is not a keyword of the OBJ specification. They are skipped.
+    pub unknown_lines: SkippedLines,
+}
+
+/// Lines of a file that were skipped.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct SkippedLines {
+    /// How many.
+    pub count: usize,
+    /// The first one, counted from 1; 0 if there is none.
+    pub first: u64,
+}
+
+impl SkippedLines {
+    pub(super) fn add(&mut self, line: u64) {
+        if self.count == 0 {
+            self.first = line;
+        }
+        self.count += 1;
+    }
 }

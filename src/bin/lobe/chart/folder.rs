@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use lobe::image::{Image, Metadata, Picture, write_exr, write_file};
 use lobe::metrics::convergence::{Run, RunningMean};
+use lobe::params::Shown;
 
 use super::plan::Plan;
 
@@ -18,8 +19,9 @@ pub struct Folder {
 impl Folder {
     /// Opens the folder, and creates it if it does not exist.
     pub fn open(path: &Path) -> Result<Self, Box<dyn Error>> {
-        fs::create_dir_all(path)
-            .map_err(|error| format!("cannot create the folder `{}`: {error}", path.display()))?;
+        fs::create_dir_all(path).map_err(|error| {
+            format!("cannot create the folder `{}`: {error}", Shown::path(path))
+        })?;
         Ok(Self { path: path.to_owned() })
     }
 
@@ -39,12 +41,12 @@ impl Folder {
             Ok(text) => Plan::from_toml(&text).map(Some).ok_or_else(|| {
                 format!(
                     "`{}` is not the plan of a chart: choose another folder with -o",
-                    path.display()
+                    Shown::path(&path)
                 )
                 .into()
             }),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(format!("cannot read `{}`: {error}", path.display()).into()),
+            Err(error) => Err(format!("cannot read `{}`: {error}", Shown::path(&path)).into()),
         }
     }
 
@@ -55,10 +57,11 @@ impl Folder {
         let removed = [(fs::remove_file(self.join("plan.toml"))), fs::remove_dir_all(&means)];
         let is_missing = |error: &std::io::Error| error.kind() == std::io::ErrorKind::NotFound;
         if let Some(error) = removed.into_iter().filter_map(Result::err).find(|e| !is_missing(e)) {
-            return Err(format!("cannot empty `{}`: {error}", self.path.display()).into());
+            return Err(format!("cannot empty `{}`: {error}", Shown::path(&self.path)).into());
         }
-        fs::create_dir_all(&means)
-            .map_err(|error| format!("cannot create the folder `{}`: {error}", means.display()))?;
+        fs::create_dir_all(&means).map_err(|error| {
+            format!("cannot create the folder `{}`: {error}", Shown::path(&means))
+        })?;
         self.write("runs.csv", format!("{}\n", Run::HEADER).as_bytes())?;
         self.write("plan.toml", plan.to_toml().as_bytes())
     }
@@ -67,14 +70,14 @@ impl Folder {
     pub fn runs(&self) -> Result<Vec<Run>, Box<dyn Error>> {
         let path = self.join("runs.csv");
         let text = fs::read_to_string(&path)
-            .map_err(|error| format!("cannot read `{}`: {error}", path.display()))?;
+            .map_err(|error| format!("cannot read `{}`: {error}", Shown::path(&path)))?;
         let whole = &text[..text.rfind('\n').map_or(0, |end| end + 1)];
         if whole.len() < text.len() {
             self.write("runs.csv", whole.as_bytes())?;
         }
         let mut runs = Vec::new();
         for line in whole.lines().skip(1) {
-            let run = line.parse().map_err(|error| format!("`{}`: {error}", path.display()))?;
+            let run = line.parse().map_err(|error| format!("`{}`: {error}", Shown::path(&path)))?;
             runs.push(run);
         }
         Ok(runs)
@@ -86,7 +89,7 @@ impl Folder {
             .append(true)
             .open(&path)
             .and_then(|mut file| file.write_all(format!("{run}\n").as_bytes()))
-            .map_err(|error| format!("cannot write to `{}`: {error}", path.display()).into())
+            .map_err(|error| format!("cannot write to `{}`: {error}", Shown::path(&path)).into())
     }
 
     /// The mean picture of this name; empty if nothing was added yet.

@@ -5,6 +5,7 @@ use std::error::Error;
 use lobe::RenderOptions;
 use lobe::image::Image;
 use lobe::metrics::convergence::{Bias, Curve, Method, Reference, Run, RunningMean};
+use lobe::params::Shown;
 use lobe::render::{RenderSettings, SamplerSettings};
 use lobe::sampling::SamplerKind;
 use lobe::scene_file::LoadedScene;
@@ -204,7 +205,7 @@ impl<'a> Bench<'a> {
                 Err(format!(
                     "`{}` holds a chart of another scene, or with other settings: choose another folder with -o, \
                      or start again with --fresh",
-                    self.folder.join("plan.toml").display()
+                    Shown::path(&self.folder.join("plan.toml"))
                 )
                 .into())
             };

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use lobe::integrator::Integrator;
 use lobe::light::LightStrategy;
-use lobe::params::{Choice, Entry, Fault, Mark, Node, Value};
+use lobe::params::{Choice, Entry, Fault, Mark, Node, Shown, Value, quoted};
 use lobe::render::{RenderSettings, SamplerSettings};
 use lobe::sampling::SamplerKind;
 use lobe::scene_file::{Place, SceneFileError, read_document, read_settings};
@@ -87,11 +87,14 @@ pub fn read(path: &Path, scene: &SceneArguments) -> Result<Vec<Named>, SceneFile
 fn method(entry: &Entry, scene: &SceneArguments) -> Result<Named, Fault> {
     let Entry { key: name, mark, node } = entry;
     if name.chars().any(char::is_control) || name.len() > 80 {
-        let what = format!("{name:?} is not a name of one line and at most 80 bytes");
+        let what = format!("{} is not a name of one line and at most 80 bytes", quoted(name));
         return Err(wrong(*mark, what));
     }
     let Value::Array(list) = &node.value else {
-        let what = format!("`{name}` is {}, expected a list of settings in quotes", node.value);
+        let what = format!(
+            "`{name}` is {}, expected a list of settings in quotes",
+            Shown::name(&node.value.to_string())
+        );
         return Err(wrong(node.mark, what));
     };
     let own = list.iter().map(setting).collect::<Result<Vec<_>, _>>()?;
@@ -113,17 +116,24 @@ fn method(entry: &Entry, scene: &SceneArguments) -> Result<Named, Fault> {
 /// One override of a method's list.
 fn setting(node: &Node) -> Result<&str, Fault> {
     let Value::Text(text) = &node.value else {
-        return Err(wrong(node.mark, format!("{} is not a setting in quotes", node.value)));
+        return Err(wrong(
+            node.mark,
+            format!("{} is not a setting in quotes", Shown::name(&node.value.to_string())),
+        ));
     };
     let begins_with = |keys: &[&str]| keys.iter().any(|key| text.starts_with(key));
     if !begins_with(&["sampler.", "integrator."]) {
         return Err(wrong(
             node.mark,
-            format!("`{text}` is not a setting of a method: expected `sampler.` or `integrator.`"),
+            format!(
+                "`{}` is not a setting of a method: expected `sampler.` or `integrator.`",
+                Shown::name(text)
+            ),
         ));
     }
     if begins_with(&["sampler.spp", "sampler.seed"]) {
-        let what = format!("`{text}` has no effect: it is chosen by --budgets and --seeds");
+        let what =
+            format!("`{}` has no effect: it is chosen by --budgets and --seeds", Shown::name(text));
         return Err(wrong(node.mark, what));
     }
     Ok(text)

@@ -19,6 +19,7 @@ use lobe::glam::UVec2;
 use lobe::image::{Encoding, Image, ImageFile};
 use lobe::metrics::convergence::{Method, Other};
 use lobe::metrics::{CompareError, Errors};
+use lobe::params::Shown;
 use lobe::{RenderOptions, Spectrum};
 
 use crate::arguments::{ThreadsArgument, seconds};
@@ -221,7 +222,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let mut others = Vec::new();
     for (Added { label, seconds, path }, image) in arguments.add.iter().zip(&images) {
         let errors = Errors::between(image, measured.reference.image())
-            .map_err(|error| format!("`{}`: {error}", path.display()))?;
+            .map_err(|error| format!("`{}`: {error}", Shown::path(path)))?;
         let (label, seconds) = (label.clone(), *seconds);
         others.push(Other { label, seconds, rel_mse: errors.rel_mse });
     }

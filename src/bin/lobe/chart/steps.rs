@@ -1,6 +1,7 @@
 //! [`Steps`]: progress of a chart on the terminal.
 
 use indicatif::{ProgressBar, ProgressStyle};
+use lobe::params::Shown;
 
 const TEMPLATE: &str = "{bar:24} {percent:>3} %  {eta} left  {msg}";
 
@@ -23,12 +24,12 @@ impl Steps {
 
     /// Prints a line above the bar.
     pub fn say(&self, line: String) {
-        self.0.iter().for_each(|bar| bar.println(&line));
+        self.0.iter().for_each(|bar| bar.println(Shown::whole(&line).to_string()));
     }
 
     /// Shows the name of the next step.
     pub fn begin(&self, what: String) {
-        self.0.iter().for_each(|bar| bar.set_message(what.clone()));
+        self.0.iter().for_each(|bar| bar.set_message(Shown::whole(&what).to_string()));
     }
 
     /// Advances the bar by the expected seconds of a step.

@@ -7,7 +7,7 @@ use std::error::Error;
 use std::io::{self, Write};
 
 use clap::Args;
-use lobe::params::hint;
+use lobe::params::{Shown, hint};
 use lobe::scene_file::SECTIONS;
 
 /// The topic for the page of the scene format.
@@ -48,7 +48,12 @@ pub fn run(arguments: &Arguments, program: clap::Command) -> Result<(), Box<dyn 
         None => {
             let commands = program.get_subcommands().map(clap::Command::get_name);
             let known = commands.chain(SECTIONS.map(|section| section.plural())).chain([PAGE]);
-            return Err(format!("there is no help on `{topic}`{}", hint(topic, known)).into());
+            return Err(format!(
+                "there is no help on `{}`{}",
+                Shown::name(topic),
+                hint(topic, known)
+            )
+            .into());
         }
     };
     unless_closed(std::io::stdout().write_all(text.as_bytes()))

@@ -30,6 +30,7 @@ pub fn of(
     summary.add("speed", format!("{:.2} Mrays/s", rays as f64 / rendered.seconds / 1e6));
     summary.add_error(&rendered.picture);
     add_faults(&mut summary, rendered);
+    summary.add_warnings(scene, report);
     for output in outputs {
         summary.add("wrote", output.path.display());
     }
