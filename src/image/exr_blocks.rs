@@ -51,10 +51,10 @@ impl<'a> Blocks<'a> {
         let (columns, rows) = (columns.div_ceil(width), rows.div_ceil(height));
         // Sides are below 2³⁰ and blocks have at least one pixel. The largest resolution stands first in a table.
         let count = columns * rows;
-        let missing = |found: usize| {
-            format!("it is incomplete: {found} of {count} blocks of pixels")
-        };
-        let before: u128 = meta.headers[..part].iter().map(|header| header.chunk_count as u128).sum();
+        let missing =
+            |found: usize| format!("it is incomplete: {found} of {count} blocks of pixels");
+        let before: u128 =
+            meta.headers[..part].iter().map(|header| header.chunk_count as u128).sum();
         let start = behind as u128 + 8 * before;
         let end = start + 8 * count as u128;
         if end > file.len() as u128 {
@@ -93,7 +93,8 @@ impl<'a> Blocks<'a> {
                 (number()?, number()?, (number()?, number()?))
             } else {
                 // The first row, which begins at the data window's.
-                let row = i64::from(number()?) - i64::from(self.header.own_attributes.layer_position.1);
+                let row =
+                    i64::from(number()?) - i64::from(self.header.own_attributes.layer_position.1);
                 let row = row.div_euclid(self.size.1 as i64);
                 (0, i32::try_from(row).unwrap_or(-1), (0, 0))
             };
@@ -156,8 +157,7 @@ impl<'a> Blocks<'a> {
         data.extend_from_slice(block.data);
         let (x, y) = block.place;
         let compressed_block = if self.header.blocks.has_tiles() {
-            let coordinates =
-                TileCoordinates { tile_index: Vec2(x, y), level_index: Vec2(0, 0) };
+            let coordinates = TileCoordinates { tile_index: Vec2(x, y), level_index: Vec2(0, 0) };
             CompressedBlock::Tile(CompressedTileBlock { coordinates, compressed_pixels_le: data })
         } else {
             let top = self.header.own_attributes.layer_position.1;

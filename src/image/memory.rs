@@ -51,8 +51,8 @@ pub fn check(size: UVec2, bytes: u128, limit: u64) -> Result<(), Refusal> {
 /// An empty vector with room for exactly this many elements.
 pub fn reserve<T>(count: u64) -> Result<Vec<T>, Refusal> {
     let mut vector = Vec::new();
-    let is_reserved = usize::try_from(count)
-        .is_ok_and(|count| vector.try_reserve_exact(count).is_ok());
+    let is_reserved =
+        usize::try_from(count).is_ok_and(|count| vector.try_reserve_exact(count).is_ok());
     if is_reserved {
         Ok(vector)
     } else {

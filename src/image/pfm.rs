@@ -46,11 +46,7 @@ const LONGEST: u64 = 256;
 
 impl Header {
     /// Reads the header, and moves `source` to the pixels once it is known that they stay within the limit.
-    fn read(
-        source: &mut (impl BufRead + Seek),
-        length: u64,
-        limit: u64,
-    ) -> Result<Self, Refusal> {
+    fn read(source: &mut (impl BufRead + Seek), length: u64, limit: u64) -> Result<Self, Refusal> {
         let mut start = Vec::new();
         source.take(LONGEST).read_to_end(&mut start).map_err(|error| error.to_string())?;
         let mut rest = &start[..];

@@ -181,7 +181,11 @@ pub(super) fn decode(source: impl BufRead + Seek, limit: u64) -> Result<Image, R
     pixels.extend(codes.chunks_exact(channels * bytes_per_code).map(|pixel| {
         let band = |index: usize| value(&pixel[index * bytes_per_code..][..bytes_per_code]);
         // Grey with or without opacity, or three colours.
-        if channels < 3 { Spectrum::splat(band(0)) } else { Spectrum::new(band(0), band(1), band(2)) }
+        if channels < 3 {
+            Spectrum::splat(band(0))
+        } else {
+            Spectrum::new(band(0), band(1), band(2))
+        }
     }));
     Ok(Image { size, pixels, variance: None, encoding: Encoding::Srgb })
 }

@@ -98,8 +98,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     if image.size() != reference.size() {
         return Err(CompareError::Size(image.size(), reference.size()).into());
     }
-    let (image, reference) =
-        (arguments.memory.decode(image)?, arguments.memory.decode(reference)?);
+    let (image, reference) = (arguments.memory.decode(image)?, arguments.memory.decode(reference)?);
     let errors = Errors::between(&image, &reference)?;
     let (seen, exposures) = ErrorMap::flip(&image, &reference, Viewing::default())?;
     let flip = seen.mean();

@@ -17,8 +17,8 @@ use std::time::Duration;
 use clap::{ArgGroup, Args, value_parser};
 use lobe::glam::UVec2;
 use lobe::image::{Encoding, Image, ImageFile};
-use lobe::metrics::{CompareError, Errors};
 use lobe::metrics::convergence::{Method, Other};
+use lobe::metrics::{CompareError, Errors};
 use lobe::{RenderOptions, Spectrum};
 
 use crate::arguments::{ThreadsArgument, seconds};
@@ -182,8 +182,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         Some(path) => methods::read(path, file)?,
         None => methods::usual(file)?,
     };
-    let files: Vec<ImageFile> =
-        arguments.add.iter().map(|added| arguments.memory.open(&added.path)).collect::<Result<_, _>>()?;
+    let files: Vec<ImageFile> = arguments
+        .add
+        .iter()
+        .map(|added| arguments.memory.open(&added.path))
+        .collect::<Result<_, _>>()?;
     let loaded = file.load()?;
     let size = loaded.view.film().window().size();
     let images = decode_added(arguments, files, size)?;
