@@ -149,8 +149,7 @@ fn what_is_no_image_is_refused() {
 }
 
 /// The first part with colours is read, of any type of sample, compression and shape of blocks, at the largest resolution. Seen to
-/// fail with tiles exchanged; with a block's position ignored; with channels in the order of their names taken for that of
-/// colours; with a part's table taken for the first one's.
+/// fail with tiles that all begin in the first column, and with the first part's table taken for that of the second.
 #[test]
 fn exr_of_other_programs() {
     use exr::prelude::{

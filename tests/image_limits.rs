@@ -39,8 +39,8 @@ fn sides_of_pfm_files_have_31_bits() {
     assert_eq!(reason("a.pfm", &[b' '; 300], u64::MAX), "it ends within its header");
 }
 
-/// A file of 377 bytes made the process abort. Seen to fail with headers believed: out of memory; and with the table of blocks
-/// looked at first.
+/// A file of 377 bytes made the process abort. Seen to fail with headers believed: the first reason was that of
+/// missing blocks.
 #[test]
 fn what_a_header_promises_is_within_the_limit() {
     let file = ExrFile { size: [1_000_000, 1_000_000], ..SMALL }.header();
@@ -91,7 +91,7 @@ fn headers_are_within_the_limit() {
 }
 
 /// A block that decompresses to more than its pixels, 64 times as many bytes for runs, is refused before. Seen to fail with
-/// blocks not counted: 200 MB were taken.
+/// blocks not counted: they were decompressed.
 #[test]
 fn blocks_are_within_the_limit() {
     let file = ExrFile { size: [100_000, 1], compression: 1, ..SMALL };

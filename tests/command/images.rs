@@ -87,7 +87,8 @@ fn bombs_are_refused() {
     folder.fails("compare fits.png fits.png --max-image-mb 100", message);
 }
 
-/// Neither image is decoded unless their sizes agree. Seen to fail with both decoded first: "it is incomplete".
+/// Neither image is decoded unless their sizes agree. Seen to fail with both decoded first: the first image cannot be
+/// read.
 #[test]
 fn sizes_are_compared_first() {
     let folder = Folder::new("sizes");
