@@ -6,6 +6,8 @@
 
 mod chart;
 mod folder;
+#[path = "../folders/mod.rs"]
+mod folders;
 
 use std::fs;
 
