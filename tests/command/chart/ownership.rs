@@ -49,8 +49,8 @@ fn chart_refuses_folders_that_are_not_its_own() {
         refuses(
             &folder,
             arguments,
-            "c/plan.toml:1:3: unknown key `step` in the plan of a chart; did you mean `seeds`?; this is not a plan of \
-             `lobe chart`: choose another folder with -o",
+            "c/plan.toml:1:3: unknown key `step` in the plan of a chart; expected `budgets`, `seeds`, `part_spp`, \
+             `means`, `fingerprint` or `starting`; this is not a plan of `lobe chart`: choose another folder with -o",
         );
     }
     fs::remove_file(folder.0.join("c/plan.toml")).unwrap();

@@ -202,7 +202,8 @@ fn plans_that_no_chart_wrote_are_refused() {
     }
     refused(
         &text.replace("fingerprint", "print"),
-        "c/plan.toml:6:1: unknown key `print` in the plan of a chart; did you mean `fingerprint`?",
+        "c/plan.toml:6:1: unknown key `print` in the plan of a chart; expected `budgets`, `seeds`, `part_spp`, `means`, \
+         `fingerprint` or `starting`",
     );
     refused(
         &text.replace("seeds = 2\n", ""),

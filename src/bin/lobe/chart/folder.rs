@@ -59,8 +59,8 @@ impl Folder {
     }
 
     /// Removes a file, if it is there.
-    pub fn remove(&self, name: &Path) -> Result<(), Box<dyn Error>> {
-        let path = self.path.join(name);
+    pub fn remove(&self, name: &str) -> Result<(), Box<dyn Error>> {
+        let path = self.join(name);
         match fs::remove_file(&path) {
             Err(error) if error.kind() != ErrorKind::NotFound => {
                 Err(format!("cannot remove `{}`: {error}", path.display()).into())

@@ -65,7 +65,7 @@ impl Results {
         let removed = Plan { starting: true, ..old.as_ref().unwrap_or(plan).clone() };
         self.folder.write(PLAN, removed.to_toml().as_bytes())?;
         for name in FILES {
-            self.folder.remove(name.as_ref())?;
+            self.folder.remove(name)?;
         }
         for name in means_of(&removed).chain(means_of(plan)) {
             self.remove_means(name, MOST)?;
@@ -205,12 +205,16 @@ impl Results {
 
     /// Removes the means of this name of up to `most` pictures.
     fn remove_means(&self, name: &str, most: u32) -> Result<(), Box<dyn Error>> {
-        (1..=most).try_for_each(|count| self.folder.remove(&self.mean_path(name, count)))
+        (1..=most).try_for_each(|count| self.folder.remove(&mean_file(name, count)))
     }
 
     fn mean_path(&self, name: &str, count: u32) -> PathBuf {
-        self.folder.join("means").join(format!("{name}-{count}.exr"))
+        self.folder.join(&mean_file(name, count))
     }
+}
+
+fn mean_file(name: &str, count: u32) -> String {
+    format!("means/{name}-{count}.exr")
 }
 
 /// Names of all means of a plan.
