@@ -285,6 +285,10 @@ fn chart_takes_the_largest_seed() {
 #[test]
 fn stability_has_a_chart_for_each_question() {
     let folder = Folder::new("chart_stability");
+    // An earlier chart, which is replaced, and a file that stays.
+    fs::create_dir(folder.0.join("s")).unwrap();
+    folder.write("s/stability.csv", "sweep,parameter,method,is_ours,value,bound\n");
+    folder.write("s/notes.txt", "mine");
     let summary = folder.prints("chart --stability --effort 0.01 -o s");
     let table = fs::read_to_string(folder.0.join("s/stability.csv")).unwrap();
     let page = fs::read_to_string(folder.0.join("s/index.html")).unwrap();
@@ -298,4 +302,5 @@ fn stability_has_a_chart_for_each_question() {
         assert!(table.contains(&format!("\n{name},")), "{name}");
     }
     assert_eq!(page.matches("<svg").count(), names.len());
+    assert_eq!(fs::read_to_string(folder.0.join("s/notes.txt")).unwrap(), "mine");
 }

@@ -25,7 +25,7 @@ fn chart_refuses_folders_that_are_not_its_own() {
             "`c` is not the folder of such a chart: it has `{name}`, but no `{marker}`; choose a new or empty folder with -o"
         )
     };
-    for name in ["index.html", "curves.csv", "runs.csv", "means/photo.exr", "stability.svg"] {
+    for name in ["index.html", "runs.csv", "means/photo.exr"] {
         fs::create_dir_all(folder.0.join("c/means")).unwrap();
         folder.write(&format!("c/{name}"), "mine");
         let found = if name > "means" { "means" } else { name };
@@ -66,25 +66,23 @@ fn chart_refuses_folders_that_are_not_its_own() {
     );
 }
 
-/// Each kind of chart knows its own folder again, and not the other's.
+/// A chart of one kind does not take the folder of the other.
 #[test]
 fn charts_of_both_kinds_have_folders_of_their_own() {
     let folder = small_folder("chart_kinds");
-    folder.prints(STABILITY);
-    folder.prints(STABILITY);
-    refuses(
-        &folder,
-        SMALL,
-        "`c` is not the folder of such a chart: it has `bases.svg`, but no `plan.toml`; choose a new or empty folder with -o",
-    );
-    fs::remove_dir_all(folder.0.join("c")).unwrap();
-    fs::create_dir(folder.0.join("c")).unwrap();
-    folder.prints(SMALL);
     folder.prints(SMALL);
     refuses(
         &folder,
         STABILITY,
         "`c` is not the folder of such a chart: it has `curves.csv`, but no `stability.csv`; choose a new or empty folder with -o",
+    );
+    fs::remove_dir_all(folder.0.join("c")).unwrap();
+    fs::create_dir(folder.0.join("c")).unwrap();
+    folder.write("c/stability.csv", "sweep,parameter,method,is_ours,value,bound\n");
+    refuses(
+        &folder,
+        SMALL,
+        "`c` is not the folder of such a chart: it has `stability.csv`, but no `plan.toml`; choose a new or empty folder with -o",
     );
 }
 

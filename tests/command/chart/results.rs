@@ -104,7 +104,7 @@ fn means_that_no_chart_wrote_are_refused() {
         };
         refuses(&folder, &file, rewrite, &format!("`{file}` {problem}: {RESTORE}"));
     };
-    for name in ["reference-8", "check-4", "1-one-2", "2-two--light-2"] {
+    for name in ["reference-8", "2-two--light-2"] {
         let small = |picture: &mut Picture| {
             *picture = Picture::new(UVec2::new(4, 3), picture.color[..12].to_vec());
         };
@@ -245,7 +245,7 @@ fn plans_with_any_byte_changed_are_refused_or_harmless() {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         (state >> 8) as usize % bound
     };
-    for _ in 0..60 {
+    for _ in 0..40 {
         let mut changed = text.clone();
         let at = random(text.len());
         match random(3) {
