@@ -105,7 +105,7 @@ impl Whole {
     }
 }
 
-/// Seen to fail with the mean written after the run, and with temporary files left.
+/// Its longer version below was seen to fail with temporary files left.
 #[test]
 fn a_killed_chart_resumes() {
     Whole::new("chart_killed").kill(4, 0x9E37_79B9_7F4A_7C15);
@@ -113,7 +113,7 @@ fn a_killed_chart_resumes() {
 
 /// The same at twenty moments, three times; and killed while an earlier chart is removed.
 #[test]
-#[ignore = "takes half a minute"]
+#[ignore = "takes many seconds"]
 fn a_chart_killed_at_many_moments_resumes() {
     let whole = Whole::new("chart_killed_often");
     for seed in 1..=3 {

@@ -165,7 +165,7 @@ impl Results {
             Some("has values that are not finite".into())
         } else if count > 1 && image.variance.is_none() {
             Some(format!("has no variance, expected that of {count} pictures"))
-        } else if image.variance.iter().any(|v| is_any(v, |value| !(*value >= 0.0))) {
+        } else if image.variance.iter().any(|v| is_any(v, |value| value.is_nan() || *value < 0.0)) {
             Some("has variances that are not numbers of at least 0".into())
         } else {
             None
