@@ -128,8 +128,8 @@ fn a_chart_killed_at_many_moments_resumes() {
     }
 }
 
-/// Killed while `--fresh` removes an earlier chart of other methods: the plan that stays says so. Seen to fail with the old plan kept
-/// as it was: its runs were taken for results.
+/// Killed while `--fresh` removes an earlier chart of other methods: the plan that stays says so. Seen to fail with that ignored: the folder was
+/// refused as that of another chart.
 #[test]
 fn a_chart_killed_while_it_starts_again_starts_again() {
     let whole = Whole::new("chart_killed_fresh");
