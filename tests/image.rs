@@ -1,8 +1,10 @@
 //! Reading pictures, and the inverse of the display curves. Files written by the crate are read back bit for bit.
 //! tests/output.rs compares them with other programs.
 
+mod folders;
+
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use lobe::Spectrum;
 use lobe::glam::UVec2;
@@ -11,7 +13,7 @@ use lobe::image::{
 };
 
 fn path(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("image-{name}"))
+    folders::of_this_run().join(name)
 }
 
 /// A crop with both zeros, subnormals, extremes, and values of every size between.

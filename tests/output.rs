@@ -2,6 +2,8 @@
 //! other programs if they are installed. With LOBE_REQUIRE_EXRHEADER=1 the tools of Debian's
 //! package `openexr` are required; Python's OpenEXR and Pillow are used if python3 has them.
 
+mod folders;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -22,9 +24,8 @@ struct Folder(PathBuf);
 
 impl Folder {
     fn new(name: &str) -> Self {
-        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("output-{name}"));
-        let _ = fs::remove_dir_all(&path);
-        fs::create_dir_all(&path).unwrap();
+        let path = folders::of_this_run().join(name);
+        fs::create_dir(&path).unwrap();
         Self(path)
     }
 

@@ -2,8 +2,9 @@
 //!
 //! Values are the keys' defaults, or their examples where there is none.
 
+mod folders;
+
 use std::collections::HashSet;
-use std::path::Path;
 
 use lobe::params::{AnyKey, AnySection, Kind};
 use lobe::scene_file::{SECTIONS, read_settings};
@@ -39,7 +40,7 @@ fn scene(section: &dyn AnySection, kind: &Kind<()>, lines: &str) -> String {
 
 /// The error in a scene before its meshes are read. `test` names the file that it is read from.
 fn fault(test: &str, text: &str) -> Option<String> {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("registries-{test}.toml"));
+    let path = folders::of_this_run().join(format!("{test}.toml"));
     std::fs::write(&path, text).unwrap();
     read_settings(&path, &[]).err().map(|error| error.to_string())
 }

@@ -4,6 +4,8 @@
 //! keys are not checked; the nearest name taken however far it is; overrides that do not replace, or
 //! whose OBJ is looked for beside the scene; the translation applied before the scale.
 
+mod folders;
+
 use std::path::{Path, PathBuf};
 
 use lobe::camera::{Camera, PerspectiveCamera};
@@ -19,7 +21,7 @@ use lobe::{FilmSettings, PerspectiveSettings, RenderSettings, Spectrum, View};
 
 /// A temporary folder with a triangle in it.
 fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("scene_file").join(test);
+    let folder = folders::of_this_run().join(test);
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join("triangle.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     folder

@@ -2,8 +2,10 @@
 
 use std::ffi::OsStr;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Output};
+
+use crate::folders;
 
 const SCENE: &str = r#"
 [camera]
@@ -28,14 +30,13 @@ material = "clay"
 
 const WALL: &str = "v -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\nv 9 9 9\nf 1 2 3\nf 1 3 4\nf 1 1 2\n";
 
-/// A temporary folder that contains `s.toml` and `wall.obj`, and nothing else.
+/// A temporary folder that contains `s.toml` and `wall.obj`, and nothing else. It is removed unless its test fails.
 pub struct Folder(pub PathBuf);
 
 impl Folder {
     pub fn new(test: &str) -> Self {
-        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("command").join(test);
-        let _ = fs::remove_dir_all(&path);
-        fs::create_dir_all(&path).unwrap();
+        let path = folders::of_this_run().join(test);
+        fs::create_dir(&path).unwrap();
         let folder = Self(path);
         folder.write("s.toml", SCENE);
         folder.write("wall.obj", WALL);
@@ -83,6 +84,14 @@ impl Folder {
             entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
         names.sort();
         names
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        if !std::thread::panicking() {
+            let _ = fs::remove_dir_all(&self.0);
+        }
     }
 }
 

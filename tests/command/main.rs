@@ -8,6 +8,8 @@ mod chart;
 #[path = "../exr_file/mod.rs"]
 mod exr_file;
 mod folder;
+#[path = "../folders/mod.rs"]
+mod folders;
 mod images;
 mod interrupted;
 mod merge;

@@ -27,10 +27,13 @@ pub struct Run {
     pub mean: f64,
 }
 
-/// A line of `runs.csv` that cannot be parsed.
+/// A line of `runs.csv` that cannot be parsed. The message has the line, shortened if it is long, and what is wrong with it.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{}` is not a line of runs.csv: expected {header}", Shown::line(.0), header = Run::HEADER)]
-pub struct ParseRunError(String);
+#[error("`{}` is not a line of runs.csv: {problem}", Shown::line(.line))]
+pub struct ParseRunError {
+    line: String,
+    problem: String,
+}
 
 impl Run {
     /// Names of the fields, in the order in which [`Display`](fmt::Display) writes them.
@@ -56,24 +59,45 @@ impl fmt::Display for Run {
 impl FromStr for Run {
     type Err = ParseRunError;
 
+    /// Parses what [`Display`](fmt::Display) writes. There is at least one sample per pixel; all numbers are finite, and none but
+    /// the mean is negative.
     fn from_str(line: &str) -> Result<Self, ParseRunError> {
-        let parse = || {
-            let (name, numbers) = line.strip_prefix('"')?.rsplit_once('"')?;
-            let numbers: Vec<&str> = numbers.strip_prefix(',')?.split(',').collect();
-            let [spp, seed, times @ .., _, _, _] = numbers.as_slice() else { return None };
-            let errors = &numbers[numbers.len() - 3..];
-            let [set_up, seconds] = times else { return None };
-            Some(Self {
-                method: name.replace("\"\"", "\""),
-                spp: spp.parse().ok()?,
-                seed: seed.parse().ok()?,
-                set_up: set_up.parse().ok()?,
-                seconds: seconds.parse().ok()?,
-                rel_mse: errors[0].parse().ok()?,
-                mse: errors[1].parse().ok()?,
-                mean: errors[2].parse().ok()?,
-            })
-        };
-        parse().ok_or_else(|| ParseRunError(line.into()))
+        parse(line).map_err(|problem| ParseRunError { line: line.into(), problem })
     }
+}
+
+fn parse(line: &str) -> Result<Run, String> {
+    let fields = || {
+        let (name, numbers) = line.strip_prefix('"')?.rsplit_once('"')?;
+        let numbers: Vec<&str> = numbers.strip_prefix(',')?.split(',').collect();
+        let numbers = <[&str; 7]>::try_from(numbers).ok()?;
+        // Each quote of a name is written twice.
+        let is_quoted = !name.replace("\"\"", "").contains('"');
+        is_quoted.then(|| (name.replace("\"\"", "\""), numbers))
+    };
+    let (method, [spp, seed, set_up, seconds, rel_mse, mse, mean]) =
+        fields().ok_or_else(|| format!("expected {}", Run::HEADER))?;
+    let at_least_0 = |field, text| {
+        number(field, text, "a finite number of at least 0", |v: f64| v.is_finite() && v >= 0.0)
+    };
+    Ok(Run {
+        method,
+        spp: number("spp", spp, "a whole number from 1 to 4294967295", |spp| spp > 0)?,
+        seed: number("seed", seed, "a whole number", |_| true)?,
+        set_up: at_least_0("set_up_s", set_up)?,
+        seconds: at_least_0("render_s", seconds)?,
+        rel_mse: at_least_0("relmse", rel_mse)?,
+        mse: at_least_0("mse", mse)?,
+        mean: number("mean", mean, "a finite number", |mean: f64| mean.is_finite())?,
+    })
+}
+
+fn number<T: FromStr + Copy>(
+    field: &str,
+    text: &str,
+    expected: &str,
+    is_valid: fn(T) -> bool,
+) -> Result<T, String> {
+    let number = text.parse().ok().filter(|number| is_valid(*number));
+    number.ok_or_else(|| format!("{field} is `{}`, expected {expected}", Shown::name(text)))
 }

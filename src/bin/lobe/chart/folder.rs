@@ -1,28 +1,51 @@
-//! [`Folder`]: the results of a chart on disk, from which an interrupted one is resumed.
+//! [`Folder`]: a folder with a chart's files, to which one process at a time writes.
 
 use std::error::Error;
-use std::fs::{self, OpenOptions};
-use std::io::Write;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use lobe::image::{Image, Metadata, Picture, write_exr, write_file};
-use lobe::metrics::convergence::{Run, RunningMean};
+use lobe::image::{sweep_temporaries, write_file};
 use lobe::params::Shown;
 
-use super::plan::Plan;
+/// The file that a chart locks while it runs. The system ends the lock with the process, however that ends.
+const LOCK: &str = ".lobe-chart.lock";
 
-/// A folder with the plan, the runs so far, and mean pictures by name and number of pictures.
+/// A chart's folder, locked against other charts.
 pub struct Folder {
     path: PathBuf,
+    _lock: File,
 }
 
 impl Folder {
-    /// Opens the folder, and creates it if it does not exist.
-    pub fn open(path: &Path) -> Result<Self, Box<dyn Error>> {
-        fs::create_dir_all(path).map_err(|error| {
-            format!("cannot create the folder `{}`: {error}", Shown::path(path))
-        })?;
-        Ok(Self { path: path.to_owned() })
+    /// Opens the folder of a chart, or a new or empty one, which is created if it does not exist. A chart's folder has a file
+    /// `marker`, which `check` accepts. Removes temporary files of killed processes.
+    pub fn open(
+        path: &Path,
+        marker: &str,
+        check: impl FnOnce(&Path) -> Result<(), Box<dyn Error>>,
+    ) -> Result<Self, Box<dyn Error>> {
+        let shown = Shown::path(path);
+        if path.is_file() {
+            return Err(format!("`{shown}` is a file: choose a folder with -o").into());
+        }
+        fs::create_dir_all(path)
+            .map_err(|error| format!("cannot create the folder `{shown}`: {error}"))?;
+        sweep_temporaries(path);
+        let marked = path.join(marker);
+        let unreadable = |error| format!("cannot read the folder `{shown}`: {error}");
+        if fs::symlink_metadata(&marked).is_ok() {
+            check(&marked)?;
+        } else if let Some(name) = anything_in(path).map_err(unreadable)? {
+            return Err(format!(
+                "`{shown}` is not the folder of such a chart: it has `{name}`, but no `{marker}`; choose a new or empty \
+                 folder with -o"
+            )
+            .into());
+        }
+        let lock = lock(path)?;
+        sweep_temporaries(&path.join("means"));
+        Ok(Self { path: path.to_owned(), _lock: lock })
     }
 
     pub fn join(&self, name: &str) -> PathBuf {
@@ -34,105 +57,63 @@ impl Folder {
         Ok(write_file(self.join(name), contents)?)
     }
 
-    /// The plan of the chart in this folder; `None` if there is none.
-    pub fn plan(&self) -> Result<Option<Plan>, Box<dyn Error>> {
-        let path = self.join("plan.toml");
-        match fs::read_to_string(&path) {
-            Ok(text) => Plan::from_toml(&text).map(Some).ok_or_else(|| {
-                format!(
-                    "`{}` is not the plan of a chart: choose another folder with -o",
-                    Shown::path(&path)
-                )
-                .into()
-            }),
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(format!("cannot read `{}`: {error}", Shown::path(&path)).into()),
-        }
-    }
-
-    /// Starts again with this plan: removes all results.
-    pub fn begin(&self, plan: &Plan) -> Result<(), Box<dyn Error>> {
-        // The plan is removed first and written last: without it nothing is resumed.
-        let means = self.join("means");
-        let removed = [(fs::remove_file(self.join("plan.toml"))), fs::remove_dir_all(&means)];
-        let is_missing = |error: &std::io::Error| error.kind() == std::io::ErrorKind::NotFound;
-        if let Some(error) = removed.into_iter().filter_map(Result::err).find(|e| !is_missing(e)) {
-            return Err(format!("cannot empty `{}`: {error}", Shown::path(&self.path)).into());
-        }
-        fs::create_dir_all(&means).map_err(|error| {
-            format!("cannot create the folder `{}`: {error}", Shown::path(&means))
-        })?;
-        self.write("runs.csv", format!("{}\n", Run::HEADER).as_bytes())?;
-        self.write("plan.toml", plan.to_toml().as_bytes())
-    }
-
-    /// The runs so far. An incomplete last line is removed; its run is repeated later.
-    pub fn runs(&self) -> Result<Vec<Run>, Box<dyn Error>> {
-        let path = self.join("runs.csv");
-        let text = fs::read_to_string(&path)
-            .map_err(|error| format!("cannot read `{}`: {error}", Shown::path(&path)))?;
-        let whole = &text[..text.rfind('\n').map_or(0, |end| end + 1)];
-        if whole.len() < text.len() {
-            self.write("runs.csv", whole.as_bytes())?;
-        }
-        let mut runs = Vec::new();
-        for line in whole.lines().skip(1) {
-            let run = line.parse().map_err(|error| format!("`{}`: {error}", Shown::path(&path)))?;
-            runs.push(run);
-        }
-        Ok(runs)
-    }
-
-    pub fn add_run(&self, run: &Run) -> Result<(), Box<dyn Error>> {
-        let path = self.join("runs.csv");
-        OpenOptions::new()
-            .append(true)
-            .open(&path)
-            .and_then(|mut file| file.write_all(format!("{run}\n").as_bytes()))
-            .map_err(|error| format!("cannot write to `{}`: {error}", Shown::path(&path)).into())
-    }
-
-    /// The mean picture of this name; empty if nothing was added yet.
-    pub fn mean(&self, name: &str) -> Result<RunningMean, Box<dyn Error>> {
-        match self.count(name) {
-            0 => Ok(RunningMean::default()),
-            count => {
-                let image = Image::read(self.mean_path(name, count))?;
-                Ok(RunningMean::from_image(&image, count))
+    /// Removes a file, if it is there.
+    pub fn remove(&self, name: &str) -> Result<(), Box<dyn Error>> {
+        let path = self.join(name);
+        match fs::remove_file(&path) {
+            Err(error) if error.kind() != ErrorKind::NotFound => {
+                Err(format!("cannot remove `{}`: {error}", Shown::path(&path)).into())
             }
+            _ => Ok(()),
         }
-    }
-
-    /// Number of pictures in the mean of this name.
-    pub fn count(&self, name: &str) -> u32 {
-        let is_there = |count: &u32| self.mean_path(name, *count).exists();
-        (1..=MOST).rev().find(is_there).unwrap_or(0)
-    }
-
-    /// Adds a picture to the mean of this name and stores it. `mean` is rounded as it is stored, so that results do not
-    /// depend on interruptions.
-    pub fn add(
-        &self,
-        name: &str,
-        mean: &mut RunningMean,
-        image: &Image,
-    ) -> Result<(), Box<dyn Error>> {
-        mean.add(&image.pixels);
-        let (color, variance) = mean.pixels();
-        let stored = Image { pixels: color.clone(), variance: variance.clone(), ..image.clone() };
-        *mean = RunningMean::from_image(&stored, mean.count());
-        let picture = Picture { variance, ..Picture::new(image.size, color) };
-        write_exr(self.mean_path(name, mean.count()), &picture, &Metadata::default())?;
-        let _ = fs::remove_file(self.mean_path(name, mean.count() - 1));
-        Ok(())
-    }
-
-    fn mean_path(&self, name: &str, count: u32) -> PathBuf {
-        let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
-        let name: String = name.chars().map(plain).collect();
-        self.path.join("means").join(format!("{name}-{count}.exr"))
     }
 }
 
-/// Largest number of pictures in a mean.
-pub const MOST: u32 = 64;
+/// Checks that this is an ordinary file of at most so many bytes, before it is read.
+pub fn check_size(path: &Path, most: u64) -> Result<(), Box<dyn Error>> {
+    let shown = Shown::path(path);
+    match fs::metadata(path) {
+        Ok(found) if !found.is_file() => Err(format!("`{shown}` is not an ordinary file").into()),
+        Ok(found) if found.len() > most => {
+            Err(format!("`{shown}` has {} bytes, expected at most {most}", found.len()).into())
+        }
+        Ok(_) => Ok(()),
+        Err(error) => Err(format!("cannot read `{shown}`: {error}").into()),
+    }
+}
+
+/// The first name in a folder, apart from what a killed chart leaves in an empty one.
+fn anything_in(folder: &Path) -> io::Result<Option<String>> {
+    let mut names = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let name = entry?.file_name().to_string_lossy().into_owned();
+        if name != LOCK {
+            names.push(name);
+        }
+    }
+    Ok(names.into_iter().min())
+}
+
+fn lock(folder: &Path) -> Result<File, Box<dyn Error>> {
+    let path = folder.join(LOCK);
+    // Opened for reading, too: that does not wait for the other end of a pipe.
+    let options =
+        OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
+    let file = options.map_err(|error| {
+        format!(
+            "cannot write to the folder `{}`: {error}; choose another one with -o",
+            Shown::path(folder)
+        )
+    })?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err(format!(
+            "another `lobe chart` is writing to `{}`: wait until it ends, or choose another folder with -o",
+            Shown::path(folder)
+        )
+        .into()),
+        Err(TryLockError::Error(error)) => {
+            Err(format!("cannot lock `{}`: {error}; choose a folder on another disk with -o", Shown::path(&path)).into())
+        }
+    }
+}

@@ -10,9 +10,11 @@ use lobe::render::{RenderSettings, SamplerSettings};
 use lobe::sampling::SamplerKind;
 use lobe::scene_file::LoadedScene;
 
-use super::folder::Folder;
+use super::cost::Cost;
 use super::methods::with_changes;
-use super::plan::{Cost, Plan};
+use super::plan::Plan;
+use super::results::{CHECK, REFERENCE, Results};
+use super::runs::Planned;
 use super::steps::Steps;
 use crate::scene::SceneArguments;
 
@@ -28,7 +30,7 @@ pub struct Bench<'a> {
     pub options: RenderOptions<'a>,
     /// Number of threads that render.
     pub threads: usize,
-    pub folder: Folder,
+    pub results: Results,
     pub is_quiet: bool,
 }
 
@@ -64,34 +66,36 @@ impl<'a> Bench<'a> {
         let [reference, check] = self.truths();
         let truth_costs = [cost(&reference)?, cost(&check)?];
         let plan = self.agree(limits, &costs, truth_costs, fingerprint)?;
-        let runs = self.folder.runs()?;
+        let planned = self.planned(&plan);
+        let runs = self.results.runs(&planned)?;
+        self.results.check_means(&planned, &runs)?;
 
-        let done_parts = [self.folder.count("reference"), self.folder.count("check")];
+        let done_parts = [self.results.count(REFERENCE), self.results.count(CHECK)];
         let done = runs.iter().map(|run| self.cost_of(run, &costs)).sum::<f64>()
             + f64::from(done_parts[0]) * truth_costs[0].of(plan.part_spp)
             + f64::from(done_parts[1]) * truth_costs[1].of(plan.most());
         let steps = Steps::new(plan.seconds(&costs, truth_costs), done, self.is_quiet);
-        let all = plan.seeds as usize * plan.budgets.len() * self.methods.len();
         steps.say(format!(
-            "{} methods, {:?} samples, {} seeds: {} of {all} pictures exist",
+            "{} methods, {:?} samples, {} seeds: {} of {} pictures exist",
             self.methods.len(),
             plan.budgets,
             plan.seeds,
-            runs.len()
+            runs.len(),
+            planned.count()
         ));
         let truth = |name: &str, method: &Method, parts: u32, spp: u32, seeds: u64, cost: Cost| {
-            let mut mean = self.folder.mean(name)?;
+            let mut mean = self.results.mean(name, parts)?;
             while mean.count() < parts {
                 steps.begin(format!("{name}, part {} of {parts}", mean.count() + 1));
                 let (image, _) = method.render(spp, self.seed(seeds + u64::from(mean.count())))?;
-                self.folder.add(name, &mut mean, &image)?;
+                self.results.add(name, &mut mean, &image)?;
                 steps.done(cost.of(spp));
             }
             Ok::<RunningMean, Box<dyn Error>>(mean)
         };
         let size = self.loaded.view.film().window().size();
         let parts = truth(
-            "reference",
+            REFERENCE,
             &reference,
             Plan::PARTS,
             plan.part_spp,
@@ -100,7 +104,7 @@ impl<'a> Bench<'a> {
         )?;
         let reference = Reference::new(&parts, size);
         let parts =
-            truth("check", &check, Plan::CHECK_PARTS, plan.most(), CHECK_SEEDS, truth_costs[1])?;
+            truth(CHECK, &check, Plan::CHECK_PARTS, plan.most(), CHECK_SEEDS, truth_costs[1])?;
         let all = f64::from(Plan::PARTS) * f64::from(plan.part_spp);
         let check = Bias::new(
             &parts,
@@ -108,12 +112,12 @@ impl<'a> Bench<'a> {
             f64::from(Plan::CHECK_PARTS) * f64::from(plan.most()) / all,
         );
 
-        let runs = self.run_all(&plan, &reference, runs, &costs, &steps)?;
+        let runs = self.run_all(&planned, &reference, runs, &costs, &steps)?;
         steps.clear();
         let curve = |method: &Method| Curve::new(method.name(), &runs, &reference);
         let curves = self.methods.iter().map(curve).collect();
         let bias = |index: usize| -> Result<Option<Bias>, Box<dyn Error>> {
-            let mean = self.folder.mean(&self.mean_name(index))?;
+            let mean = self.results.mean(&plan.means[index], plan.seeds)?;
             let part = f64::from(mean.count()) * f64::from(plan.most()) / all;
             Ok((mean.count() > 1).then(|| Bias::new(&mean, &reference, part)))
         };
@@ -126,7 +130,7 @@ impl<'a> Bench<'a> {
         self.loaded.settings.sampler.seed.wrapping_add(offset)
     }
 
-    /// Renders one picture with each method. Returns their costs and [`Plan::fingerprint`]. Methods that give the same bits
+    /// Renders one picture with each method. Returns their costs and a checksum of them. Methods that give the same bits
     /// as an earlier one with the same sampler are duplicates and removed.
     fn try_out(&mut self) -> Result<(Vec<Cost>, u32), Box<dyn Error>> {
         let (mut images, mut costs): (Vec<(SamplerSettings, Image)>, Vec<Cost>) =
@@ -191,45 +195,48 @@ impl<'a> Bench<'a> {
         fingerprint: u32,
     ) -> Result<Plan, Box<dyn Error>> {
         let Limits { budgets, seconds, seeds, reference, fresh } = limits;
-        let with = |budgets| Plan::new(budgets, *seeds, *reference, fingerprint);
-        if !fresh && let Some(plan) = self.folder.plan()? {
+        let part_spp = reference.map(|spp| spp.div_ceil(Plan::PARTS));
+        let with = |budgets, part_spp| {
+            Plan::new(budgets, *seeds, part_spp, self.mean_names(), fingerprint)
+        };
+        if !fresh
+            && let Some(plan) = self.results.plan()?
+            && !plan.starting
+        {
             // Limits that the user did not give are taken from the stored plan.
             let budgets = if budgets.is_empty() { &plan.budgets } else { budgets };
-            let mut asked = with(budgets.clone());
-            if reference.is_none() {
-                asked.part_spp = plan.part_spp;
-            }
+            let asked = with(budgets.clone(), part_spp.or(Some(plan.part_spp)));
             return if asked == plan {
                 Ok(plan)
             } else {
                 Err(format!(
                     "`{}` holds a chart of another scene, or with other settings: choose another folder with -o, \
                      or start again with --fresh",
-                    Shown::path(&self.folder.join("plan.toml"))
+                    Shown::path(&self.results.folder.join("plan.toml"))
                 )
                 .into())
             };
         }
         let plan = match budgets.as_slice() {
-            [] => Plan::for_time(*seconds, costs, truths, with),
-            budgets => with(budgets.to_vec()),
+            [] => Plan::for_time(*seconds, costs, truths, |budgets| with(budgets, part_spp)),
+            budgets => with(budgets.to_vec(), part_spp),
         };
-        self.folder.begin(&plan)?;
+        self.results.begin(&plan)?;
         Ok(plan)
     }
 
     /// The methods take turns for each number of samples and seed, so that other load on the machine affects all alike.
     fn run_all(
         &self,
-        plan: &Plan,
+        planned: &Planned,
         reference: &Reference,
         mut runs: Vec<Run>,
         costs: &[Cost],
         steps: &Steps,
     ) -> Result<Vec<Run>, Box<dyn Error>> {
+        let Planned { plan, seeds, .. } = planned;
         for &spp in &plan.budgets {
-            for run_index in 0..u64::from(plan.seeds) {
-                let seed = self.seed(1 + run_index);
+            for (place, &seed) in (0..).zip(seeds) {
                 for (index, method) in self.methods.iter().enumerate() {
                     let is_known = |run: &Run| {
                         run.method == method.name() && run.spp == spp && run.seed == seed
@@ -237,22 +244,18 @@ impl<'a> Bench<'a> {
                     if runs.iter().any(is_known) {
                         continue;
                     }
-                    steps.begin(format!(
-                        "{}, {spp} spp, seed {} of {}",
-                        method.name(),
-                        run_index + 1,
-                        plan.seeds
-                    ));
+                    let (name, of) = (method.name(), plan.seeds);
+                    steps.begin(format!("{name}, {spp} spp, seed {} of {of}", place + 1));
                     let (run, image) = method
                         .run(spp, seed, reference)
-                        .map_err(|error| format!("{}, {spp} samples: {error}", method.name()))?;
-                    let name = self.mean_name(index);
+                        .map_err(|error| format!("{name}, {spp} samples: {error}"))?;
+                    let mean_name = &plan.means[index];
                     // After an interruption between both writes, the mean has one picture more than there are runs.
-                    if spp == plan.most() && u64::from(self.folder.count(&name)) == run_index {
-                        let mut mean = self.folder.mean(&name)?;
-                        self.folder.add(&name, &mut mean, &image)?;
+                    if spp == plan.most() && self.results.count(mean_name) == place {
+                        let mut mean = self.results.mean(mean_name, plan.seeds)?;
+                        self.results.add(mean_name, &mut mean, &image)?;
                     }
-                    self.folder.add_run(&run)?;
+                    self.results.add_run(&run)?;
                     steps.done(costs[index].of(spp));
                     runs.push(run);
                 }
@@ -261,8 +264,18 @@ impl<'a> Bench<'a> {
         Ok(runs)
     }
 
-    fn mean_name(&self, index: usize) -> String {
-        format!("{}-{}", index + 1, self.methods[index].name())
+    fn planned<'p>(&'p self, plan: &'p Plan) -> Planned<'p> {
+        let methods = self.methods.iter().map(Method::name).collect();
+        let seeds = (1..=u64::from(plan.seeds)).map(|place| self.seed(place)).collect();
+        Planned { plan, methods, seeds }
+    }
+
+    fn mean_names(&self) -> Vec<String> {
+        let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
+        let name = |(number, method): (u32, &Method)| {
+            format!("{number}-{}", method.name().chars().map(plain).collect::<String>())
+        };
+        (1..).zip(&self.methods).map(name).collect()
     }
 
     fn cost_of(&self, run: &Run, costs: &[Cost]) -> f64 {

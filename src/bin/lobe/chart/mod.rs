@@ -1,11 +1,14 @@
 //! `lobe chart`: error against time and samples, for all methods that can render a scene.
 
+mod cost;
 mod folder;
 mod measure;
 mod methods;
 mod page;
 mod plan;
 mod report;
+mod results;
+mod runs;
 mod stability;
 mod steps;
 
@@ -25,8 +28,8 @@ use lobe::{RenderOptions, Spectrum};
 use crate::arguments::{ThreadsArgument, seconds};
 use crate::images::MemoryArgument;
 use crate::scene::SceneArguments;
-use folder::Folder;
 use measure::Bench;
+use results::Results;
 
 const EXAMPLES: &str = r#"Examples:
   lobe chart dragon-sky.toml                            five minutes, then dragon-sky-chart/index.html
@@ -41,8 +44,9 @@ A list of methods is a TOML file. Each method has a name and a list of settings 
   "light sampling only" = ['sampler.type="sobol"', 'integrator.strategy="light"']
 
 Errors are the square root of relMSE, the mean of (a - b)² / (b² + 0.01), against a reference with other seeds. The
-reference's own error is subtracted and drawn as a floor. An interrupted chart resumes with its plan. A finished
-chart is only drawn again, after a short trial of each method; --fresh starts again."#;
+reference's own error is subtracted and drawn as a floor. A chart that is stopped by Ctrl-C or killed loses no more
+than the picture that it was rendering: the same command resumes it. A finished chart is only drawn again, after a short
+trial of each method; --fresh starts again. One chart at a time writes to a folder."#;
 
 /// Arguments without effect on `--stability`, which they conflict with.
 const OF_SCENES: [&str; 10] = [
@@ -76,7 +80,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = factor, conflicts_with = "path")]
     effort: f64,
 
-    /// The folder to write to [default: NAME-chart for NAME.toml, or stability-chart]
+    /// The folder to write to: a new or empty one, or that of an earlier chart [default: NAME-chart for NAME.toml, or stability-chart]
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
 
@@ -89,7 +93,7 @@ pub struct Arguments {
     time: Duration,
 
     /// Numbers of samples per pixel, in place of the powers of two that fit into --time
-    #[arg(long, value_name = "N,...", value_delimiter = ',', value_parser = value_parser!(u32).range(1..1 << 24))]
+    #[arg(long, value_name = "N,...", conflicts_with = "time", value_delimiter = ',', value_parser = value_parser!(u32).range(1..1 << 24))]
     budgets: Vec<u32>,
 
     /// Number of pictures with different seeds, for each method and number of samples
@@ -107,7 +111,7 @@ pub struct Arguments {
     #[command(flatten)]
     memory: MemoryArgument,
 
-    /// Discards earlier results in the folder
+    /// Starts again: removes earlier results from the folder, and no other files
     #[arg(long)]
     fresh: bool,
 
@@ -150,7 +154,7 @@ fn decode_added(
     files: Vec<ImageFile>,
     size: UVec2,
 ) -> Result<Vec<Image>, Box<dyn Error>> {
-    let told = |path: &Path, error: CompareError| format!("`{}`: {error}", path.display());
+    let told = |path: &Path, error: CompareError| format!("`{}`: {error}", Shown::path(path));
     for (Added { path, .. }, file) in arguments.add.iter().zip(&files) {
         if file.size() != size {
             return Err(told(path, CompareError::Size(file.size(), size)).into());
@@ -191,7 +195,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let loaded = file.load()?;
     let size = loaded.view.film().window().size();
     let images = decode_added(arguments, files, size)?;
-    let folder = Folder::open(&folder)?;
+    let results = Results::open(&folder, size)?;
 
     let options = RenderOptions { threads: arguments.threads.given(), ..RenderOptions::default() };
     let method = |(name, settings): &methods::Named| {
@@ -205,7 +209,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         notes: Vec::new(),
         options,
         threads: arguments.threads.count(),
-        folder,
+        results,
         is_quiet: arguments.quiet,
     };
     let mut budgets = arguments.budgets.clone();

@@ -16,6 +16,7 @@ pub fn write(
     scene: &str,
 ) -> Result<(), Box<dyn Error>> {
     let Measured { reference, curves, biases, check, plan } = measured;
+    let folder = &bench.results.folder;
     let study = Study { scene: scene.into(), reference, curves, biases, others };
     let charts = [
         ("error-by-time.svg", study.error_by_time()),
@@ -24,15 +25,15 @@ pub fn write(
     ];
     let mut written = Vec::new();
     for (name, chart) in &charts {
-        bench.folder.write(name, chart.svg().as_bytes())?;
+        folder.write(name, chart.svg().as_bytes())?;
         written.push(*name);
     }
-    bench.folder.write("curves.csv", study.csv().as_bytes())?;
+    folder.write("curves.csv", study.csv().as_bytes())?;
     let remarks = remarks(bench, &study, &check);
     let [by_time, by_samples, equal_time] = &charts;
     let page =
         page::html(bench, &study, &plan, &remarks, [&by_time.1, &by_samples.1, &equal_time.1])?;
-    bench.folder.write("index.html", page.as_bytes())?;
+    folder.write("index.html", page.as_bytes())?;
     written.extend(["curves.csv", "runs.csv", "index.html"]);
     if bench.is_quiet {
         return Ok(());
@@ -62,7 +63,7 @@ pub fn write(
         summary.add("note", remark);
     }
     for name in written {
-        summary.add("wrote", bench.folder.join(name).display());
+        summary.add("wrote", folder.join(name).display());
     }
     Ok(summary.print()?)
 }

@@ -2,23 +2,30 @@
 
 use std::error::Error;
 use std::fmt::Write;
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use lobe::metrics::chart::{Axis, Chart, Line, Point, Scale, escape};
+use lobe::params::Shown;
 
-use super::folder::Folder;
+use super::folder::{Folder, check_size};
 use super::page::STYLE;
 use super::steps::Steps;
 use crate::stability::sweep::{Method, Sweep};
 use crate::stability::{ALL, all};
 use crate::summary::Summary;
 
+/// The table of all numbers, and its first line.
+const TABLE: &str = "stability.csv";
+const HEADER: &str = "sweep,parameter,method,is_ours,value,bound";
+
 /// Measures all sweeps, and writes a chart of each, a table of all numbers and a page.
 ///
 /// # Errors
 /// If files cannot be written; or, after they are written, if ours exceeds a stored bound.
 pub fn run(folder: &Path, effort: f64, is_quiet: bool) -> Result<(), Box<dyn Error>> {
-    let folder = Folder::open(folder)?;
+    let folder = Folder::open(folder, TABLE, check_table)?;
     let steps = Steps::new(ALL.len() as f64, 0.0, is_quiet);
     let mut begun = 0;
     let sweeps = all(effort, &mut |name| {
@@ -27,14 +34,16 @@ pub fn run(folder: &Path, effort: f64, is_quiet: bool) -> Result<(), Box<dyn Err
         begun += 1;
     });
     steps.clear();
-    let mut csv = String::from("sweep,parameter,method,is_ours,value,bound\n");
+    let mut csv = format!("{HEADER}\n");
+    sweeps.iter().for_each(|sweep| add_rows(&mut csv, sweep));
+    // First, because it marks the folder as one of these charts.
+    folder.write(TABLE, csv.as_bytes())?;
     let mut page = head();
     let mut summary = Summary::default();
     let mut broken = Vec::new();
     for sweep in &sweeps {
         let svg = chart(sweep).svg();
         folder.write(&format!("{}.svg", sweep.name), svg.as_bytes())?;
-        add_rows(&mut csv, sweep);
         let verdict = verdict(sweep);
         let (title, about) = (escape(sweep.title), escape(&sweep.about));
         let shown = escape(&verdict);
@@ -46,7 +55,6 @@ pub fn run(folder: &Path, effort: f64, is_quiet: bool) -> Result<(), Box<dyn Err
         }));
     }
     page.push_str("</html>\n");
-    folder.write("stability.csv", csv.as_bytes())?;
     folder.write("index.html", page.as_bytes())?;
     if !is_quiet {
         summary.add("wrote", folder.join("index.html").display());
@@ -57,6 +65,24 @@ pub fn run(folder: &Path, effort: f64, is_quiet: bool) -> Result<(), Box<dyn Err
     }
     let list = broken.join("\n  ");
     Err(format!("ours exceeds {} stored bounds:\n  {list}", broken.len()).into())
+}
+
+/// Checks that an earlier chart wrote this table.
+fn check_table(path: &Path) -> Result<(), Box<dyn Error>> {
+    let mut found = vec![0; HEADER.len()];
+    let mut is_table = || {
+        // Some files, such as pipes, have no end.
+        check_size(path, 1 << 24).ok()?;
+        File::open(path).and_then(|mut file| file.read_exact(&mut found)).ok()?;
+        (found == HEADER.as_bytes()).then_some(())
+    };
+    is_table().ok_or_else(|| {
+        format!(
+            "`{}` is not a table of `lobe chart --stability`, whose first line is {HEADER}: choose another folder with -o",
+            Shown::path(path)
+        )
+        .into()
+    })
 }
 
 fn head() -> String {
