@@ -99,16 +99,17 @@ fn the_first_of_equals_is_hit() {
 }
 
 /// No hit is behind the origin, even with a negative t_min: alone, in a batch, and of one triangle. Caught: t compared with
-/// t_min alone.
+/// t_min alone, of one ray and of sixteen.
 #[test]
 fn nothing_behind_the_origin_is_hit() {
-    let corners = [Vec3::new(-1.0, -1.0, 0.0), Vec3::new(1.0, -1.0, 0.0), Vec3::Y];
+    // In the plane z = 2 x, with the origins of the rays in its box.
+    let corners = [Vec3::new(-1.0, -1.0, -2.0), Vec3::new(1.0, -1.0, 2.0), Vec3::Y];
     let accel = Accel::build(&[single(corners)]);
     let truth = Loop::new(&[]);
     for t_min in [0.0, -1e-30, -5.0, f32::NEG_INFINITY] {
         let rays: Vec<Ray> = (0..64)
             .map(|i| {
-                let o = Vec3::new(0.001 * i as f32, -0.5, 2.0);
+                let o = Vec3::new(0.001 * i as f32, -0.5, 0.5);
                 Ray { t_min, ..Ray::new(o, Vec3::new(0.1, 0.0, 1.0)) }
             })
             .collect();
@@ -125,7 +126,7 @@ fn nothing_behind_the_origin_is_hit() {
 #[test]
 fn hits_close_to_the_origin_are_refused_alike() {
     let (mut hits, mut all) = (0, 0);
-    for trial in 0..200 {
+    for trial in 0..100 {
         let mut rng = Rng::new(815, trial);
         let corners = [(); 3].map(|()| rng.direction() * rng.within(0.5, 2.0));
         let mesh = single(corners);
@@ -139,10 +140,10 @@ fn hits_close_to_the_origin_are_refused_alike() {
             let height = 10.0_f32.powf(rng.within(-8.0, -5.0));
             Ray::new(middle + aside - n * height, d + rng.direction() * 0.01)
         };
-        let rays: Vec<Ray> = (0..256).map(close).collect();
+        let rays: Vec<Ray> = (0..64).map(close).collect();
         assert_answers(&accel, &truth, &rays, &format!("trial {trial}"));
         hits += rays.iter().filter(|ray| truth.closest(ray).is_hit()).count();
         all += rays.len();
     }
-    assert!(hits > all / 4 && hits < all * 3 / 4, "{hits} hits of {all} rays");
+    assert!(hits > all / 10 && hits < all * 9 / 10, "{hits} hits of {all} rays");
 }
