@@ -281,7 +281,9 @@ fn bias_is_that_by_hand() {
     let pool = |mean: f32, half: f32| {
         let mut pool = RunningMean::default();
         // The variance of the mean of two is the square of half their difference.
-        [mean - half, mean + half].map(|x| pool.add(&vec![Spectrum::splat(x); 16 * 24]));
+        for value in [mean - half, mean + half] {
+            pool.add(&[Spectrum::splat(value); 16 * 24]);
+        }
         pool
     };
     let (variance, own) = (0.02 * 0.02, 0.05 * 0.05);
