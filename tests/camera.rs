@@ -151,6 +151,25 @@ fn orthographic_lens_focuses_at_its_distance() {
     }
 }
 
+/// The same in perspective: where the ray of a pinhole meets the plane in focus. Seen to fail with the lens point multiplied
+/// by the distance in place of divided.
+#[test]
+fn perspective_lens_focuses_at_its_distance() {
+    let lens = PerspectiveSettings { lens_radius: 0.5, focal_distance: 4.0, ..Default::default() };
+    let [camera, sharp] = [lens, PerspectiveSettings::default()]
+        .map(|settings| PerspectiveCamera::new(&settings, RESOLUTION).unwrap());
+    for (x, y) in [(3.2, 7.5), (30.9, 0.1)] {
+        let p = Vec2::new(x, y);
+        let focus = through(&sharp, x, y).d / through(&sharp, x, y).d.z * 4.0;
+        for lens in [Vec2::ZERO, Vec2::new(0.9, 0.2), Vec2::new(0.4, 0.99)] {
+            let ray = camera.generate_ray(p.as_uvec2(), p.fract(), lens);
+            assert!(ray.o.z == 0.0 && ray.o.length() <= 0.5 + 1e-6, "{}", ray.o);
+            let there = ray.o + ray.d * (4.0 / ray.d.z);
+            assert!((there - focus).length() < 1e-5, "{there} instead of {focus}");
+        }
+    }
+}
+
 /// look_at in the middle, poles at the edges, backwards at the seam, right at three quarters. Seen to fail with the
 /// azimuth from the left edge on, with left and right exchanged, and with θ from below.
 #[test]

@@ -303,6 +303,33 @@ fn curves_are_those_by_hand() {
     assert!(study.error_by_time().svg().contains("other, &quot;one&quot;"));
 }
 
+/// A bias by hand: two pictures and two parts of a reference, each pair with the same mean and variance in all pixels. Seen to
+/// fail without the reference's own variance.
+#[test]
+fn bias_is_that_by_hand() {
+    let size = UVec2::new(16, 24);
+    let pool = |mean: f32, half: f32| {
+        let mut pool = RunningMean::default();
+        // The variance of the mean of two is the square of half their difference.
+        for value in [mean - half, mean + half] {
+            pool.add(&[Spectrum::splat(value); 16 * 24]);
+        }
+        pool
+    };
+    let (variance, own) = (0.02 * 0.02, 0.05 * 0.05);
+    let reference = Reference::new(&pool(1.0, 0.05), size);
+    // With half as many samples as the reference, pictures that saw all light have twice its variance.
+    let bias = Bias::new(&pool(1.1, 0.02), &reference, 0.5);
+    let close = |x: f64, y: f64| assert!((x - y).abs() < 1e-5 * y, "{x}, expected {y}");
+    let square = (0.1 * 0.1 - variance - own) / 1.01;
+    close(bias.square.0, square);
+    close(bias.error, square.sqrt());
+    close(bias.mean.0, 0.1);
+    let (both, pixels) = (2.0 * own + own, f64::from(size.element_product()));
+    close(bias.square.1, 2.0_f64.sqrt() * both / 1.01 / pixels.sqrt());
+    close(bias.mean.1, (both / pixels).sqrt());
+}
+
 /// A picture whose error is concentrated in few pixels is reported, with the place.
 #[test]
 fn rare_samples_are_not_trusted() {

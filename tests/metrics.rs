@@ -126,6 +126,19 @@ fn noise_is_told_from_difference() {
     assert!((found.largest.0 - 20.0).abs() < 1e-3 && (4.0..5.5).contains(&found.limit));
 }
 
+/// Values that differ by rounding alone are equal, however small their variance. Seen to fail with the variance alone.
+#[test]
+fn rounding_is_no_difference() {
+    let mut a = image(SIZE, Encoding::Linear, |_, _| [1.0, 100.0, 1e-4]);
+    let mut b = image(SIZE, Encoding::Linear, |_, _| [1.0, 100.0, 1e-4].map(f32::next_up));
+    for image in [&mut a, &mut b] {
+        let variance = |pixel: &Spectrum| *pixel * *pixel * 1e-20;
+        image.variance = Some(image.pixels.iter().map(variance).collect());
+    }
+    let found = z_test(&a, &b).unwrap().unwrap();
+    assert_eq!((found.tested, found.failed), (3 * 48 * 40, 0), "{found:?}");
+}
+
 /// Zero is dark, the ends of the scale differ from the middle, and one pixel in a thousand does not set the scale.
 #[test]
 fn maps_show_where_images_differ() {

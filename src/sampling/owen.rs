@@ -58,3 +58,30 @@ pub fn shuffle_within_block(index: u32, coins: u32) -> usize {
         | coin(7 + (position >> 1));
     (position ^ flips) as usize
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    /// Four digits have as many nested scrambles as 15 random bits have values, and each value gives another. Seen to fail
+    /// with one bit for two digits.
+    #[test]
+    fn every_coin_gives_another_scramble() {
+        let mut scrambles = BTreeSet::new();
+        for coins in 0..1 << 15 {
+            let scramble: [usize; BLOCK as usize] =
+                std::array::from_fn(|index| shuffle_within_block(index as u32, coins));
+            // Nested: positions that share upper digits still do.
+            for digits in 1..4 {
+                for run in scramble.chunks(1 << digits) {
+                    assert!(run.iter().all(|&to| to >> digits == run[0] >> digits), "{coins:x}");
+                }
+            }
+            assert_eq!(scramble.iter().fold(0, |all, &to| all | 1 << to), u16::MAX, "{coins:x}");
+            scrambles.insert(scramble);
+        }
+        assert_eq!(scrambles.len(), 1 << 15);
+    }
+}

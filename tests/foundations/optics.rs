@@ -106,6 +106,16 @@ fn brewster_and_critical_angle() {
     }
 }
 
+/// At the very critical angle, where refracted light would run along the surface, all of it is reflected: a sine of 1/2 at
+/// index 2, and a direction along the surface at index 1, both exact in floats. Caught: a direction without cosine
+/// returned there.
+#[test]
+fn the_critical_angle_itself_reflects() {
+    for (wi, eta) in [(Vec3::new(0.5, 0.0, 0.75_f32.sqrt()), 2.0), (Vec3::X, 1.0)] {
+        assert_eq!(refract(wi, Vec3::Z, eta), None, "{wi}, eta {eta}");
+    }
+}
+
 /// Against f64, from the pole to the horizon, with angles down to 1e-30. Caught: sin² as 1 - cos², which
 /// is 0 below an angle of 2e-4; sin θ as the root of an underflowing square; the clamp of cos Δφ
 /// left out.

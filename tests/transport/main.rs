@@ -12,5 +12,6 @@ mod dimensions;
 mod estimators;
 mod film_error;
 mod random_scenes;
+mod roulette;
 mod scale;
 mod slope;

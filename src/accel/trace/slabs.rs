@@ -9,14 +9,13 @@ use crate::geometry::float::gamma;
 
 /// A ray prepared for boxes.
 ///
-/// The triangle test rounds, so a ray may hit a triangle whose box it just misses. Therefore every box is padded by a
-/// bound on that error, and no hit is lost. The padding is added to the ray's origin: once for the planes where it
+/// The triangle test and the distances to planes are rounded, so a ray may hit a triangle whose box it just misses.
+/// Therefore every box is padded by a bound on both errors, and no hit is lost. The padding is added to the ray's origin: once for the planes where it
 /// enters boxes, once for those where it leaves.
 pub struct Slabs<L> {
     origin_near: [L; 3],
     origin_far: [L; 3],
-    inverse_near: [L; 3],
-    inverse_far: [L; 3],
+    inverse: [L; 3],
     /// Index of the planes where the ray enters and leaves, on each axis.
     near: [usize; 3],
     far: [usize; 3],
@@ -30,16 +29,17 @@ pub struct Slabs<L> {
     pub flip_near_first: u32,
 }
 
-/// Factor by which t is enlarged where a ray leaves a box, for the rounding of t itself (Ize 2013).
+/// Factor by which the end of a ray is enlarged, for the rounding of t itself (Ize 2013).
 const TOLERANCE: f32 = 1.0 + 2.0 * gamma(3);
 
 impl<L: Lanes> Slabs<L> {
     #[inline(always)]
     pub fn new(ray: &Ray, largest_coordinate: f32) -> Self {
-        // Moving the corners to the ray's origin and shearing them costs up to four roundings of
-        // numbers no larger than the distance from the origin to the corner.
+        // In units of half an epsilon, for numbers up to `reach`: a corner that is moved to the ray's origin and sheared is
+        // off by up to 6 (two differences, quotient, product, sum); a plane by up to 4 (padded origin, difference, inverse,
+        // product). 5 epsilon in all, and a sixth for what is smaller than these.
         let reach = largest_coordinate + ray.o.abs().max_element();
-        let padding = Vec3A::splat(4.0 * f32::EPSILON * reach).copysign(ray.d.into());
+        let padding = Vec3A::splat(6.0 * f32::EPSILON * reach).copysign(ray.d.into());
         let o = Vec3A::from(ray.o);
         let inverse = Vec3A::ONE / Vec3A::from(ray.d);
         // By the sign bit, so that -0 counts as negative.
@@ -48,8 +48,7 @@ impl<L: Lanes> Slabs<L> {
         Self {
             origin_near: splat3((o + padding).to_array()),
             origin_far: splat3((o - padding).to_array()),
-            inverse_near: splat3(inverse.to_array()),
-            inverse_far: splat3((inverse * TOLERANCE).to_array()),
+            inverse: splat3(inverse.to_array()),
             near: [0, 1, 2].map(|axis| axis + 3 * is_negative[axis]),
             far: [0, 1, 2].map(|axis| axis + 3 - 3 * is_negative[axis]),
             t_min: L::splat(ray.t_min),
@@ -76,11 +75,11 @@ impl<L: Lanes> Slabs<L> {
     fn interval(&self, node: &Node) -> (L, L) {
         let enter = |axis: usize| {
             let plane = L::load(&node.planes[self.near[axis] % 6]);
-            plane.sub(self.origin_near[axis]).mul(self.inverse_near[axis])
+            plane.sub(self.origin_near[axis]).mul(self.inverse[axis])
         };
         let leave = |axis: usize| {
             let plane = L::load(&node.planes[self.far[axis] % 6]);
-            plane.sub(self.origin_far[axis]).mul(self.inverse_far[axis])
+            plane.sub(self.origin_far[axis]).mul(self.inverse[axis])
         };
         (
             enter(0).max(enter(1).max(enter(2).max(self.t_min))),

@@ -100,13 +100,11 @@ impl<'a> FlatHits<'a> {
         (!(above ^ wo_above) & self.wo_n.cmpne(Vec4::ZERO), wi_n)
     }
 
-    /// Density over solid angle of directions sampled from the lobe, by their cosines with the normals.
+    /// Density over solid angle of directions sampled from the lobe, by their cosines with the normals: for hits that
+    /// [`reflect`](Self::reflect) them.
     #[inline(always)]
-    pub fn pdf(&self, wi_n: Vec4) -> Vec4 {
-        let zero = Vec4::ZERO;
-        let same =
-            (self.wo_n.cmpgt(zero) & wi_n.cmpgt(zero)) | (self.wo_n.cmplt(zero) & wi_n.cmplt(zero));
-        Vec4::select(same, wi_n.abs() * Vec4::splat(std::f32::consts::FRAC_1_PI), zero)
+    pub fn pdf(wi_n: Vec4) -> Vec4 {
+        wi_n.abs() * Vec4::splat(std::f32::consts::FRAC_1_PI)
     }
 
     /// β f.
@@ -120,7 +118,7 @@ impl<'a> FlatHits<'a> {
     pub fn sample_directions(&self, u: [Vec2; 4]) -> (u32, [Path; 4], Vec3x4) {
         let mut local = cosine_hemisphere::sample_x4(u);
         local.z = Vec4::select(self.wo_n.cmplt(Vec4::ZERO), -local.z, local.z);
-        let pdf = self.pdf(local.z);
+        let pdf = Self::pdf(local.z);
         let wi = Framex4::from_normals(self.n).to_world(local);
         let (reflect, wi_n) = self.reflect(wi);
         let mut mask = (reflect & pdf.cmpgt(Vec4::ZERO)).bitmask();

@@ -53,7 +53,7 @@ impl LightSamples {
         }
         let mut weight = Vec4::ONE;
         if self.weighed.any() {
-            let ratio = hits.pdf(wi_n) / pdf;
+            let ratio = FlatHits::pdf(wi_n) / pdf;
             let weighed = 1.0 / (1.0 + ratio * ratio);
             weight = Vec4::select(self.weighed, weighed, weight);
         }

@@ -239,7 +239,7 @@ fn delta_events_stay_delta_events() {
 
 /// `f_and_pdf` is `f` and `pdf`, for a lobe whose value depends on which direction is which: light that crosses a
 /// boundary is such a case.
-/// Caught: the two directions exchanged in `f_and_pdf`.
+/// Caught: the two directions exchanged in `f_and_pdf`; a density there for directions beneath the surface.
 #[test]
 fn f_and_pdf_are_f_and_pdf() {
     struct OneWay;
@@ -257,6 +257,14 @@ fn f_and_pdf_are_f_and_pdf() {
     assert_eq!(bsdf.f(wo, wi, all), Spectrum::new(0.25, 0.75, 0.5));
     assert_eq!(bsdf.f_and_pdf(wo, wi, all), (bsdf.f(wo, wi, all), bsdf.pdf(wo, wi, all)));
     assert!(bsdf.pdf(wo, wi, all) > bsdf.pdf(wi, wo, all));
+    // A second lobe takes the other way to the density.
+    for _ in 0..2 {
+        for (wo, wi) in [(wo, -wi), (-wo, wi)] {
+            assert_eq!(bsdf.f_and_pdf(wo, wi, all), (Spectrum::BLACK, 0.0));
+            assert_eq!((bsdf.f(wo, wi, all), bsdf.pdf(wo, wi, all)), (Spectrum::BLACK, 0.0));
+        }
+        bsdf.add(LambertianReflection::new(Spectrum::WHITE));
+    }
 }
 
 /// Samples that a lobe leaves to the trait are glossy if the lobe is, without a `Bsdf` that would correct them.

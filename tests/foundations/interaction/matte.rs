@@ -86,6 +86,25 @@ fn reflectance_is_clamped() {
     }
 }
 
+/// Only a surface with the same Lambertian lobe at every hit declares it. Caught: a constant sigma other than 0 taken for
+/// smooth, which shades Oren-Nayar as Lambertian; a bumpy surface taken for flat.
+#[test]
+fn only_lambertian_surfaces_declare_a_constant_lobe() {
+    let matte = || MatteMaterial::new([0.6, 0.3, 0.2]);
+    let constant = |material: MatteMaterial| material.constant_lambertian().map(|l| l.f(WO, WI));
+    let lambert = LambertianReflection::new(Spectrum::new(0.6, 0.3, 0.2)).f(WO, WI);
+    assert_eq!(constant(matte()), Some(lambert));
+    assert_eq!(constant(matte().with_sigma(0.0)), Some(lambert));
+    assert_eq!(constant(matte().with_sigma(1e-3)), None);
+    assert_eq!(constant(matte().with_sigma(20.0)), None);
+    assert_eq!(constant(matte().with_sigma(Arc::new(OfU(|_| 0.0)))), None);
+    assert_eq!(constant(matte().with_bump(0.0)), None);
+    assert_eq!(constant(MatteMaterial::new(Arc::new(OfU(Spectrum::splat)))), None);
+    for absorbing in [[0.0; 3], [f32::NAN; 3]] {
+        assert_eq!(constant(MatteMaterial::new(absorbing)), None);
+    }
+}
+
 /// A displacement tilts the frame of the lobes, and the geometric normal stays. Caught: a tilt whose
 /// result is dropped.
 #[test]

@@ -4,10 +4,12 @@ use lobe::TriangleMesh;
 use lobe::accel::{Accel, Hit};
 use lobe::geometry::Ray;
 use lobe::glam::Vec3;
+use lobe::shape::ShearedRay;
 
 use super::answers::{Loop, assert_answers};
 use super::kinds::{Kind, many};
-use crate::common::meshes::{grid, lumpy, placed};
+use crate::common::Rng;
+use crate::common::meshes::{grid, lumpy, placed, single};
 
 /// The ray with ranges that begin and end at the hit, and one float before or after it.
 fn around(ray: &Ray, hit: &Hit) -> [Ray; 9] {
@@ -94,4 +96,54 @@ fn the_first_of_equals_is_hit() {
         later += u32::from(hit.triangle > 0);
     }
     assert!(later > 1000, "only {later} rays hit another triangle than the first");
+}
+
+/// No hit is behind the origin, even with a negative t_min: alone, in a batch, and of one triangle. Caught: t compared with
+/// t_min alone, of one ray and of sixteen.
+#[test]
+fn nothing_behind_the_origin_is_hit() {
+    // In the plane z = 2 x, with the origins of the rays in its box.
+    let corners = [Vec3::new(-1.0, -1.0, -2.0), Vec3::new(1.0, -1.0, 2.0), Vec3::Y];
+    let accel = Accel::build(&[single(corners)]);
+    let truth = Loop::new(&[]);
+    for t_min in [0.0, -1e-30, -5.0, f32::NEG_INFINITY] {
+        let rays: Vec<Ray> = (0..64)
+            .map(|i| {
+                let o = Vec3::new(0.001 * i as f32, -0.5, 0.5);
+                Ray { t_min, ..Ray::new(o, Vec3::new(0.1, 0.0, 1.0)) }
+            })
+            .collect();
+        for ray in &rays {
+            let hit = ShearedRay::new(ray).intersect(&corners, t_min, f32::INFINITY);
+            assert_eq!(hit, None, "t_min {t_min}");
+        }
+        assert_answers(&accel, &truth, &rays, &format!("t_min {t_min}"));
+    }
+}
+
+/// A hit whose distance is within its error bound is refused, and batches have the same bound as single rays: rays that
+/// begin within 1e-5 of the triangle that they cross. Caught: a factor of the batches' bound smaller.
+#[test]
+fn hits_close_to_the_origin_are_refused_alike() {
+    let (mut hits, mut all) = (0, 0);
+    for trial in 0..100 {
+        let mut rng = Rng::new(815, trial);
+        let corners = [(); 3].map(|()| rng.direction() * rng.within(0.5, 2.0));
+        let mesh = single(corners);
+        let (accel, truth) =
+            (Accel::build(std::slice::from_ref(&mesh)), Loop::new(std::slice::from_ref(&mesh)));
+        let (n, along) = (mesh.geometric_normal(0), rng.direction());
+        let d = along * n.dot(along).signum();
+        let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+        let close = |_| {
+            let aside = rng.direction().cross(n) * 0.02;
+            let height = 10.0_f32.powf(rng.within(-8.0, -5.0));
+            Ray::new(middle + aside - n * height, d + rng.direction() * 0.01)
+        };
+        let rays: Vec<Ray> = (0..64).map(close).collect();
+        assert_answers(&accel, &truth, &rays, &format!("trial {trial}"));
+        hits += rays.iter().filter(|ray| truth.closest(ray).is_hit()).count();
+        all += rays.len();
+    }
+    assert!(hits > all / 10 && hits < all * 9 / 10, "{hits} hits of {all} rays");
 }
