@@ -31,6 +31,7 @@ fn picture() -> Picture {
         window,
         color: pixels(0).collect(),
         variance: Some(pixels(5).collect()),
+        degrees_of_freedom: Some(7),
         layers: None,
     }
 }

@@ -9,7 +9,7 @@ use lobe::metrics::{CompareError, ErrorMap, Errors, Viewing, flip, z_test};
 fn image(size: UVec2, encoding: Encoding, pixel: impl Fn(u32, u32) -> [f32; 3]) -> Image {
     let at = |i: u32| Spectrum::from(pixel(i % size.x, i / size.x));
     let pixels = (0..size.x * size.y).map(at).collect();
-    Image { size, pixels, variance: None, encoding }
+    Image { size, pixels, variance: None, degrees_of_freedom: None, encoding }
 }
 
 const SIZE: UVec2 = UVec2::new(48, 40);

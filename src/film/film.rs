@@ -201,12 +201,20 @@ impl Film {
         let samples = || self.pixels.iter().map(|sum| sum.samples);
         let layers = self.first_hits.as_ref().map(|pixels| FirstHits::develop(pixels, samples()));
         let color = self.pixels.iter().map(|p| p.mean().map(|m| m as f32).into()).collect();
-        let variance = self.develop_variance();
-        Picture { resolution: self.resolution, window: self.window, color, variance, layers }
+        let variance = self.raw_variance();
+        let degrees_of_freedom = self.degrees_of_freedom();
+        let (resolution, window) = (self.resolution, self.window);
+        Picture { resolution, window, color, variance, degrees_of_freedom, layers }
+    }
+
+    /// The degrees of freedom of the variance in the pixel that has the fewest; `None` if no pixel has any.
+    fn degrees_of_freedom(&self) -> Option<u32> {
+        let of = |(index, sum)| self.variance.degrees_of_freedom(index, sum);
+        self.pixels.iter().enumerate().map(of).filter(|&degrees| degrees > 0).min()
     }
 
     /// The variance of each pixel's mean, infinite where there is no estimate; `None` if no pixel has one.
-    fn develop_variance(&self) -> Option<Vec<Spectrum>> {
+    fn raw_variance(&self) -> Option<Vec<Spectrum>> {
         let of = |(index, sum)| self.variance.of_mean(index, sum);
         let known = self.pixels.iter().enumerate().any(|pixel| of(pixel).is_some());
         known.then(|| {

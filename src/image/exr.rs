@@ -26,6 +26,9 @@ const REC_709: Chromaticities = Chromaticities {
     white: Vec2(0.3127, 0.3290),
 };
 
+/// The attribute of [`Picture::degrees_of_freedom`].
+const DEGREES_OF_FREEDOM: &str = "varianceDegreesOfFreedom";
+
 /// Writes a picture as an OpenEXR file of linear `f32`, bit for bit, with lossless compression (ZIP, line by line).
 ///
 /// The file has one part, with these channels:
@@ -49,6 +52,7 @@ const REC_709: Chromaticities = Chromaticities {
 /// | `seed` | string, decimal | [`Metadata::seed`]; the format has no 64-bit integer |
 /// | `samplesPerPixel` | int | [`Metadata::samples_per_pixel`], at most 2³¹ - 1 |
 /// | `renderSeconds` | double | [`Metadata::seconds`] |
+/// | `varianceDegreesOfFreedom` | int | [`Picture::degrees_of_freedom`], if they are known |
 ///
 /// The same arguments give the same bytes. The file is replaced whole or not at all, as
 /// [`write_file`](super::write_file) says.
@@ -107,6 +111,10 @@ fn layer_attributes(picture: &Picture, metadata: &Metadata) -> LayerAttributes {
     let text = |text: &str| Text::from_slice_unchecked(text.as_bytes());
     let samples = i32::try_from(metadata.samples_per_pixel).unwrap_or(i32::MAX);
     let min = picture.window.min;
+    let degrees_of_freedom = picture.degrees_of_freedom.map(|degrees| {
+        let degrees = i32::try_from(degrees).unwrap_or(i32::MAX);
+        (text(DEGREES_OF_FREEDOM), AttributeValue::I32(degrees))
+    });
     LayerAttributes {
         layer_position: Vec2(min.x as i32, min.y as i32),
         software_name: Some(text(SOFTWARE)),
@@ -116,7 +124,9 @@ fn layer_attributes(picture: &Picture, metadata: &Metadata) -> LayerAttributes {
             (text("samplesPerPixel"), AttributeValue::I32(samples)),
             (text("renderSeconds"), AttributeValue::F64(metadata.seconds)),
         ]
-        .into(),
+        .into_iter()
+        .chain(degrees_of_freedom)
+        .collect(),
         ..LayerAttributes::default()
     }
 }
@@ -201,7 +211,16 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
     let pixels = bands(&layer.channel_data, colors).ok_or("its channels of colours are missing")?;
     let variance = bands(&layer.channel_data, ["variance.R", "variance.G", "variance.B"]);
     let size = UVec2::new(layer.size.0 as u32, layer.size.1 as u32);
-    Ok(Image { size, pixels, variance, encoding: Encoding::Linear })
+    let degrees_of_freedom = degrees_of_freedom(&layer.attributes);
+    Ok(Image { size, pixels, variance, degrees_of_freedom, encoding: Encoding::Linear })
+}
+
+/// The degrees of freedom of the variance; `None` if they are not given, or not a number above 0.
+fn degrees_of_freedom(attributes: &LayerAttributes) -> Option<u32> {
+    match attributes.other.get(&Text::from_slice_unchecked(DEGREES_OF_FREEDOM.as_bytes()))? {
+        AttributeValue::I32(degrees) => u32::try_from(*degrees).ok().filter(|&degrees| degrees > 0),
+        _ => None,
+    }
 }
 
 /// Names of the channels that hold a layer's colours.

@@ -90,7 +90,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
     };
     let row = |row: &[f32]| row.chunks(bands).map(pixel).collect::<Vec<_>>();
     let pixels = values.chunks(size.x as usize * bands).rev().flat_map(row).collect();
-    Ok(Image { size, pixels, variance: None, encoding: Encoding::Linear })
+    Ok(Image { size, pixels, variance: None, degrees_of_freedom: None, encoding: Encoding::Linear })
 }
 
 /// Takes the next word, and the one byte of white space after it.

@@ -31,6 +31,10 @@ pub struct Picture {
     /// Estimated variance of each mean, by band: the square of its standard error. Infinite in pixels with too few
     /// samples for an estimate; `None` if there is no estimate for any pixel.
     pub variance: Option<Vec<Spectrum>>,
+    /// Degrees of freedom of the variance in the pixel that has the fewest: the independent samples, or sets of samples,
+    /// less one. A confidence interval follows from them by Student's t distribution. `None` without variance, or if they
+    /// are not known.
+    pub degrees_of_freedom: Option<u32>,
     /// The first hits, if the render recorded them.
     pub layers: Option<Layers>,
 }
@@ -39,7 +43,7 @@ impl Picture {
     /// A whole image with these colours, without variance or layers.
     pub fn new(resolution: UVec2, color: Vec<Spectrum>) -> Self {
         let window = Window::full(resolution);
-        Self { resolution, window, color, variance: None, layers: None }
+        Self { resolution, window, color, variance: None, degrees_of_freedom: None, layers: None }
     }
 
     /// Standard error of the radiance: the root of the mean variance over all bands of all pixels whose variance is

@@ -135,5 +135,5 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
         .into_rgb32f();
     let size = UVec2::new(image.width(), image.height());
     let pixels = image.pixels().map(|pixel| Spectrum::from(pixel.0)).collect();
-    Ok(Image { size, pixels, variance: None, encoding: Encoding::Srgb })
+    Ok(Image { size, pixels, variance: None, degrees_of_freedom: None, encoding: Encoding::Srgb })
 }

@@ -10,9 +10,11 @@ mod errors;
 mod flip;
 mod map;
 mod plane;
+mod student_t;
 mod z_test;
 
 pub use errors::{CompareError, Errors};
 pub use flip::{Exposures, Viewing, flip};
 pub use map::ErrorMap;
+pub use student_t::StudentT;
 pub use z_test::{ZTest, z_test};
