@@ -9,6 +9,7 @@ mod film;
 mod filter;
 mod first_hits;
 mod pixel_sum;
+mod pooled;
 mod stored;
 mod variance;
 

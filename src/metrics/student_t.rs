@@ -24,6 +24,11 @@ impl StudentT {
     /// The normal distribution, its limit for many degrees of freedom.
     pub const NORMAL: Self = Self { degrees_of_freedom: f64::INFINITY };
 
+    /// The distribution for this number of degrees of freedom; the normal one if it is not known.
+    pub fn of(degrees_of_freedom: Option<u32>) -> Self {
+        degrees_of_freedom.map_or(Self::NORMAL, |n| Self { degrees_of_freedom: f64::from(n) })
+    }
+
     /// The t that is exceeded on either side with this probability altogether, which has to be in (0, 1).
     pub fn two_sided_quantile(self, probability: f64) -> f64 {
         let target = probability.ln();
