@@ -104,7 +104,9 @@ fn ln_beta_factor(a: f64) -> f64 {
         a += 1.0;
     }
     let square = 1.0 / (a * a);
-    let series = (-1.0 / 8.0 + square * (1.0 / 192.0 - square * (1.0 / 640.0 - square * 17.0 / 14336.0))) / a;
+    let series = (-1.0 / 8.0
+        + square * (1.0 / 192.0 - square * (1.0 / 640.0 - square * 17.0 / 14336.0)))
+        / a;
     shift.ln() + 0.5 * (2.0 * a / TAU).ln() + series
 }
 

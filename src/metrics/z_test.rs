@@ -10,7 +10,7 @@ use crate::image::Image;
 ///
 /// t is the difference of two values over its standard error. z is what a normal variable exceeds as rarely as t is
 /// exceeded, if noise alone makes the values differ: by Student's t distribution, with the degrees of freedom of both
-/// variances by Welch and Satterthwaite. With infinitely many they are equal.
+/// variances by Welch and Satterthwaite. With infinitely many, z and t are equal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ZTest {
     /// Number of tests: one for each band of each pixel with a finite variance above zero.
@@ -40,8 +40,8 @@ pub fn z_test(image: &Image, reference: &Image) -> Result<Option<ZTest>, Compare
         image.variance.as_ref().map_or([0.0; 3], |variance| variance[index].to_array())
     };
     // The squared variance of a variance is its square over half the degrees of freedom.
-    let per_degree =
-        [image, reference].map(|image| image.degrees_of_freedom.map_or(0.0, |n| 1.0 / f64::from(n)));
+    let per_degree = [image, reference]
+        .map(|image| image.degrees_of_freedom.map_or(0.0, |n| 1.0 / f64::from(n)));
     let mut z = Vec::new();
     for index in 0..image.pixels.len() {
         let bands =

@@ -150,7 +150,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let size = loaded.view.film().window().size();
     for (Added { path, .. }, image) in arguments.add.iter().zip(&images) {
         let dark = vec![Spectrum::BLACK; size.x as usize * size.y as usize];
-        let like = Image { size, pixels: dark, variance: None, degrees_of_freedom: None, encoding: Encoding::Linear };
+        let like = Image {
+            size,
+            pixels: dark,
+            variance: None,
+            degrees_of_freedom: None,
+            encoding: Encoding::Linear,
+        };
         Errors::between(image, &like).map_err(|error| format!("`{}`: {error}", path.display()))?;
     }
     let folder = Folder::open(&folder)?;
