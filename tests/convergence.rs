@@ -400,6 +400,7 @@ fn pools_go_on() {
         size: UVec2::new(10, 5),
         pixels,
         variance,
+        degrees_of_freedom: first.degrees_of_freedom(),
         encoding: lobe::image::Encoding::Linear,
     };
     let mut again = RunningMean::from_image(&image, 3);

@@ -193,6 +193,68 @@ fn what_is_unknown_is_not_made_up() {
     assert_eq!(Variance::suiting(true, 4), Variance::OfSets(4));
 }
 
+/// A film of 3 × 3 pixels. Each has four samples in two sets, whose means differ by `apart` times two.
+fn apart(of: impl Fn(UVec2) -> f32) -> Picture {
+    let mut film = film(3, Variance::OfSets(2), false);
+    for pixel in (0..9).map(|i| UVec2::new(i % 3, i / 3)) {
+        for (set, sign) in [(0, 1.0), (1, -1.0)] {
+            let value = Spectrum::new(10.0 + sign * of(pixel), 1.0, 1.0);
+            film.add_samples(pixel, set, &[value; 2]);
+        }
+    }
+    film.develop()
+}
+
+/// A pixel's variance is the mean of its own and of its neighbours' mean, at least an eighth of the largest neighbour's: in a
+/// corner, on an edge, in the middle. Seen to fail with the pixel among its neighbours, with five by five neighbours, and with a
+/// tenth for an eighth.
+#[test]
+fn variances_are_pooled_with_neighbours() {
+    // Alone, the pixel in the middle has a variance of 1, the right ones 9, all others 0.
+    let picture = apart(|pixel| if pixel == UVec2::ONE { 1.0 } else { 3.0 * (pixel.x / 2) as f32 });
+    let red: Vec<_> = picture.variance.unwrap().iter().map(|v| v.to_array()).collect();
+    let sixth = 0.5 * (1.0 + 9.0 + 9.0) / 5.0;
+    let expected = [
+        [0.5 / 3.0, sixth, 4.5 + 0.5 * 10.0 / 3.0],
+        [0.5 / 5.0, 0.5 + 0.5 * 27.0 / 8.0, 4.5 + 0.5 * 19.0 / 5.0],
+        [0.5 / 3.0, sixth, 4.5 + 0.5 * 10.0 / 3.0],
+    ];
+    for (index, expected) in expected.into_iter().flatten().enumerate() {
+        let found = red[index];
+        assert!((found[0] - expected).abs() < 1e-5, "{index}: {found:?}, expected {expected}");
+        assert_eq!(found[1..], [0.0; 2], "equal samples among equal ones");
+    }
+    // One of eight neighbours varies: half of their mean would be a sixteenth of its variance.
+    let picture = apart(|pixel| if pixel == UVec2::ZERO { 2.0 } else { 0.0 });
+    assert!((picture.variance.unwrap()[4].to_array()[0] - 0.5).abs() < 1e-6);
+}
+
+/// Sets or samples less one, and as many again from the neighbours; those of the pixel that has the fewest, of those with an
+/// estimate. Seen to fail with the most for the fewest.
+#[test]
+fn degrees_of_freedom_are_those_of_the_poorest_pixel() {
+    let samples: Vec<_> = (0..7).map(|i| (i % 3, Spectrum::splat(i as f32))).collect();
+    for (variance, degrees) in [
+        (Variance::None, None),
+        (Variance::OfSets(1), None),
+        (Variance::OfSets(3), Some(2)),
+        (Variance::OfSets(5), Some(2)),
+        (Variance::OfSamples, Some(6)),
+    ] {
+        assert_eq!(one_pixel(variance, &samples).degrees_of_freedom, degrees, "{variance:?}");
+        let mut film = film(2, variance, false);
+        for &(set, radiance) in &samples {
+            film.add_sample(PIXEL, set, radiance);
+            film.add_sample(UVec2::X, set, radiance);
+        }
+        // One more sample of a set, of a pixel that keeps one sample, and of one that has none.
+        film.add_sample(PIXEL, 0, Spectrum::WHITE);
+        film.add_sample(UVec2::Y, 0, Spectrum::WHITE);
+        let twice = degrees.map(|degrees| 2 * degrees);
+        assert_eq!(film.develop().degrees_of_freedom, twice, "{variance:?}");
+    }
+}
+
 const VARIANCES: [Variance; 4] =
     [Variance::None, Variance::OfSamples, Variance::OfSets(1), Variance::OfSets(3)];
 

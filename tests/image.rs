@@ -33,6 +33,7 @@ fn picture() -> Picture {
         window,
         color: pixels(0).collect(),
         variance: Some(pixels(5).collect()),
+        degrees_of_freedom: Some(7),
         layers: None,
         planes: Vec::new(),
     }
@@ -43,20 +44,26 @@ fn bits(pixels: &[Spectrum]) -> Vec<u32> {
 }
 
 /// Caught: PFM rows from the top down; big-endian numbers; bands exchanged; a band of the variance read twice; a PFM
-/// picture that is not checked.
+/// picture that is not checked; degrees of freedom not read.
 #[test]
 fn linear_formats_come_back_bit_for_bit() {
     let picture = picture();
     let (exr, pfm) = (path("x.exr"), path("x.PFM"));
     write_exr(&exr, &picture, &Metadata::default()).unwrap();
     write_pfm(&pfm, &picture).unwrap();
-    for (path, variance) in [(&exr, picture.variance.as_ref()), (&pfm, None)] {
+    for (path, variance, degrees) in
+        [(&exr, picture.variance.as_ref(), Some(7)), (&pfm, None, None)]
+    {
         let image = Image::read(path).unwrap();
         assert_eq!((image.size, image.encoding), (UVec2::new(5, 7), Encoding::Linear));
         assert_eq!(bits(&image.pixels), bits(&picture.color), "{path:?}");
+        assert_eq!(image.degrees_of_freedom, degrees, "{path:?}");
         let found = image.variance.as_deref().map(bits);
         assert_eq!(found, variance.map(|variance| bits(variance)), "{path:?}");
     }
+    let unknown = Picture { degrees_of_freedom: None, ..picture.clone() };
+    write_exr(&exr, &unknown, &Metadata::default()).unwrap();
+    assert_eq!(Image::read(&exr).unwrap().degrees_of_freedom, None);
     let refused = Picture { color: Vec::new(), ..picture };
     let message = write_pfm(&pfm, &refused).unwrap_err().to_string();
     assert!(message.contains("its window has 35 pixels, but 0 values of colour"), "{message}");

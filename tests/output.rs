@@ -68,6 +68,7 @@ fn crop() -> Picture {
         window,
         color: (0..n).map(|i| triple(i, 0).into()).collect(),
         variance: Some((0..n).map(|i| triple(i, 4).into()).collect()),
+        degrees_of_freedom: Some(3),
         layers: Some(Layers {
             normal: (0..n).map(|i| triple(i, 1).into()).collect(),
             depth: (0..n).map(|i| value(7 * i + 2)).collect(),
@@ -87,6 +88,7 @@ fn ramp() -> Picture {
         window: Window::full(resolution),
         color: (0..1200).map(color).collect(),
         variance: None,
+        degrees_of_freedom: None,
         layers: None,
         planes: Vec::new(),
     }
@@ -471,14 +473,7 @@ fn the_last_pixel_of_the_largest_image_can_be_written() {
     let path = folder.file("x");
     let resolution = UVec2::splat((1 << 30) - 2);
     let window = Window { min: resolution - 1, max: resolution };
-    let picture = Picture {
-        resolution,
-        window,
-        color: vec![Spectrum::WHITE],
-        variance: None,
-        layers: None,
-        planes: Vec::new(),
-    };
+    let picture = Picture { window, ..Picture::new(resolution, vec![Spectrum::WHITE]) };
     write_exr(&path, &picture, &metadata()).unwrap();
     assert_eq!(read_exr(&path).layer_data[0].size, Vec2(1, 1));
     write_png(&path, &picture, Display::Srgb, &metadata()).unwrap();

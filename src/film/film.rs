@@ -8,6 +8,7 @@ use super::Variance;
 use super::first_hits::FirstHits;
 use super::pixel_sum::{PixelSum, zeroed};
 use super::planes::Kind;
+use super::pooled::pooled;
 use super::stored::{read_all, write_all};
 use super::variance::VarianceSums;
 use crate::image::{Picture, Plane, Window};
@@ -86,9 +87,9 @@ impl Film {
         let area = window.area();
         let first_hits = if contents.first_hits { size_of::<FirstHits>() } else { 0 };
         // Radiance and first hits three times: as sums, in the picture, and in the file that is written. The variance once
-        // as sums, and twice as a spectrum.
+        // as sums, and three times as a spectrum: by pixel, pooled, and in the file.
         let variance = contents.variance.bytes();
-        let developed = if variance > 0 { 2 * size_of::<Spectrum>() as u64 } else { 0 };
+        let developed = if variance > 0 { 3 * size_of::<Spectrum>() as u64 } else { 0 };
         let per_pixel = 3 * (size_of::<PixelSum>() + first_hits) as u64 + variance + developed;
         let bytes = (area as u64).saturating_mul(per_pixel);
         let too_large = FilmError::TooLarge(window.size().x, window.size().y, bytes >> 20);
@@ -204,14 +205,16 @@ impl Film {
         }
     }
 
-    /// The picture: the mean of each pixel, its estimated variance, and the layers.
+    /// The picture: the mean of each pixel, its estimated variance, and the layers. The variance of a pixel is pooled with
+    /// those of its neighbours in the window, so that it differs at the border of a crop from that in the whole image.
     pub fn develop(&self) -> Picture {
         let samples = || self.pixels.iter().map(|sum| sum.samples);
         let layers = self.first_hits.as_ref().map(|pixels| FirstHits::develop(pixels, samples()));
         let color = self.pixels.iter().map(|p| p.mean().map(|m| m as f32).into()).collect();
-        let variance = self.develop_variance();
+        let variance = self.raw_variance().map(|raw| pooled(self.window.size(), &raw));
+        let degrees_of_freedom = self.degrees_of_freedom();
         let (resolution, window, planes) = (self.resolution, self.window, Vec::new());
-        Picture { resolution, window, color, variance, layers, planes }
+        Picture { resolution, window, color, variance, degrees_of_freedom, layers, planes }
     }
 
     /// The picture, with all that the film keeps as [`planes`](Picture::planes).
@@ -247,8 +250,16 @@ impl Film {
         Ok(is_whole.then_some(film))
     }
 
-    /// The variance of each pixel's mean, infinite where there is no estimate; `None` if no pixel has one.
-    fn develop_variance(&self) -> Option<Vec<Spectrum>> {
+    /// The degrees of freedom of the pooled variance in the pixel that has the fewest: twice its own, if there are
+    /// neighbours. `None` if no pixel has any.
+    fn degrees_of_freedom(&self) -> Option<u32> {
+        let of = |(index, sum)| self.variance.degrees_of_freedom(index, sum);
+        let own = self.pixels.iter().enumerate().map(of).filter(|&degrees| degrees > 0).min()?;
+        Some(if self.pixels.len() > 1 { own.saturating_mul(2) } else { own })
+    }
+
+    /// The variance of each pixel's mean from its own samples, infinite where there is no estimate; `None` if no pixel has one.
+    fn raw_variance(&self) -> Option<Vec<Spectrum>> {
         let of = |(index, sum)| self.variance.of_mean(index, sum);
         let known = self.pixels.iter().enumerate().any(|pixel| of(pixel).is_some());
         known.then(|| {

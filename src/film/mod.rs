@@ -10,6 +10,7 @@ mod filter;
 mod first_hits;
 mod pixel_sum;
 mod planes;
+mod pooled;
 mod stored;
 mod variance;
 

@@ -171,6 +171,19 @@ impl VarianceSums {
         }
     }
 
+    /// The degrees of freedom of [`of_mean`](Self::of_mean): samples less one, or sets with samples less one; 0 if there
+    /// is no estimate.
+    pub fn degrees_of_freedom(&self, index: usize, all: &PixelSum) -> u32 {
+        match self {
+            Self::None => 0,
+            Self::Samples(_) => all.samples.saturating_sub(1),
+            Self::Sets(sets, sums) => {
+                let filled = sums[index * sets..][..*sets].iter().filter(|sum| sum.samples > 0);
+                (filled.count() as u32).saturating_sub(1)
+            }
+        }
+    }
+
     /// The variance of the mean of the pixel at `index`, whose samples have the sum `all`; `None` for fewer than two
     /// samples, or fewer than two sets with samples.
     pub fn of_mean(&self, index: usize, all: &PixelSum) -> Option<[f64; 3]> {

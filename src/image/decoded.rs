@@ -24,6 +24,8 @@ pub struct Image {
     pub pixels: Vec<Spectrum>,
     /// Square of each pixel's standard error, if it is known.
     pub variance: Option<Vec<Spectrum>>,
+    /// Degrees of freedom of each variance, as in [`Picture`]; `None` if they are not known.
+    pub degrees_of_freedom: Option<u32>,
     /// What the numbers mean.
     pub encoding: Encoding,
 }
@@ -35,6 +37,7 @@ impl From<&Picture> for Image {
             size: picture.window.size(),
             pixels: picture.color.clone(),
             variance: picture.variance.clone(),
+            degrees_of_freedom: picture.degrees_of_freedom,
             encoding: Encoding::Linear,
         }
     }

@@ -22,6 +22,9 @@ const REC_709: Chromaticities = Chromaticities {
     white: Vec2(0.3127, 0.3290),
 };
 
+/// The attribute of [`Picture::degrees_of_freedom`].
+pub(super) const DEGREES_OF_FREEDOM: &str = "varianceDegreesOfFreedom";
+
 /// Writes a picture as an OpenEXR file of linear `f32`, bit for bit, with lossless compression (ZIP, line by line).
 ///
 /// The file has one part, with these channels:
@@ -47,6 +50,7 @@ const REC_709: Chromaticities = Chromaticities {
 /// | `samplesPerPixel` | int | [`Metadata::samples_per_pixel`], at most 2³¹ - 1 |
 /// | `renderSeconds` | double | [`Metadata::seconds`] |
 /// | `part` | string, UTF-8 | [`Metadata::part`], if there is one: `samples FIRST to BEHIND of ALL, NON_FINITE not finite`, then a line for each of the identity |
+/// | `varianceDegreesOfFreedom` | int | [`Picture::degrees_of_freedom`], if they are known |
 ///
 /// The same arguments give the same bytes. The file is replaced whole or not at all, as
 /// [`write_file`](super::write_file) says.
@@ -115,6 +119,10 @@ fn layer_attributes(picture: &Picture, metadata: &Metadata) -> LayerAttributes {
         .part
         .as_ref()
         .map(|part| (text("part"), AttributeValue::Text(text(&part.to_string()))));
+    let degrees_of_freedom = picture.degrees_of_freedom.map(|degrees| {
+        let degrees = i32::try_from(degrees).unwrap_or(i32::MAX);
+        (text(DEGREES_OF_FREEDOM), AttributeValue::I32(degrees))
+    });
     LayerAttributes {
         layer_position: Vec2(min.x as i32, min.y as i32),
         software_name: Some(text(SOFTWARE)),
@@ -126,6 +134,7 @@ fn layer_attributes(picture: &Picture, metadata: &Metadata) -> LayerAttributes {
         ]
         .into_iter()
         .chain(part)
+        .chain(degrees_of_freedom)
         .collect(),
         ..LayerAttributes::default()
     }

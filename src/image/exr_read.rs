@@ -11,6 +11,7 @@ use ::exr::meta::header::Header;
 use ::exr::prelude::{AttributeValue, Vec2, f16};
 use glam::UVec2;
 
+use super::exr::DEGREES_OF_FREEDOM;
 use super::exr_blocks::Blocks;
 use super::memory::{PIXEL, Refusal, area, check, filled, reserve};
 use super::{Encoding, Image, Metadata, ParsePartError, PartMetadata, Picture, Plane, Window};
@@ -140,7 +141,11 @@ pub(super) fn decode(
         }
     }
     let variance = layout.variance.map(|_| variance);
-    Ok(Image { size, pixels, variance, encoding: Encoding::Linear })
+    let degrees_of_freedom = match layout.attribute(DEGREES_OF_FREEDOM) {
+        Some(AttributeValue::I32(degrees)) => u32::try_from(*degrees).ok().filter(|&d| d > 0),
+        _ => None,
+    };
+    Ok(Image { size, pixels, variance, degrees_of_freedom, encoding: Encoding::Linear })
 }
 
 /// Reads the metadata of a part of a render, from the header alone.
@@ -206,13 +211,13 @@ pub(super) fn decode_part(
 const FILM: &str = "film.";
 
 impl Layout {
-    fn part_metadata(&self) -> Result<Metadata, Refusal> {
+    fn attribute(&self, name: &str) -> Option<&AttributeValue> {
         let other = &self.meta.headers[self.part].own_attributes.other;
-        let value = |name: &str| {
-            let found = other.iter().find(|(known, _)| *known == name);
-            found.map(|(_, value)| value)
-        };
-        let text = |name: &str| match value(name) {
+        other.iter().find(|(known, _)| *known == name).map(|(_, value)| value)
+    }
+
+    fn part_metadata(&self) -> Result<Metadata, Refusal> {
+        let text = |name: &str| match self.attribute(name) {
             Some(AttributeValue::Text(text)) => {
                 Some(String::from_utf8_lossy(text.as_slice()).into_owned())
             }
@@ -222,7 +227,7 @@ impl Layout {
             "it is not a complete part of a render: `lobe render --shard K/N` writes those",
         )?;
         let part: PartMetadata = part.parse().map_err(|error: ParsePartError| error.to_string())?;
-        let seconds = match value("renderSeconds") {
+        let seconds = match self.attribute("renderSeconds") {
             Some(AttributeValue::F64(seconds)) => *seconds,
             _ => 0.0,
         };

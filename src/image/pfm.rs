@@ -132,7 +132,13 @@ pub(super) fn decode(
             };
         }
     }
-    Ok(Image { size: header.size, pixels, variance: None, encoding: Encoding::Linear })
+    Ok(Image {
+        size: header.size,
+        pixels,
+        variance: None,
+        degrees_of_freedom: None,
+        encoding: Encoding::Linear,
+    })
 }
 
 /// Takes the next word, and the one byte of white space after it.

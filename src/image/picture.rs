@@ -28,9 +28,14 @@ pub struct Picture {
     pub window: Window,
     /// Mean radiance of each pixel of the window, in W / (m² sr).
     pub color: Vec<Spectrum>,
-    /// Estimated variance of each mean, by band: the square of its standard error. Infinite in pixels with too few
-    /// samples for an estimate; `None` if there is no estimate for any pixel.
+    /// Estimated variance of each mean, by band: the square of its standard error. A film pools each pixel's estimate with
+    /// those of its neighbours. Infinite in pixels with too few samples for an estimate; `None` if there is no estimate for
+    /// any pixel.
     pub variance: Option<Vec<Spectrum>>,
+    /// Degrees of freedom of the variance in the pixel that has the fewest. A film's pixel has as many as it has
+    /// independent samples, or sets of samples, less one, and as many again from its neighbours. A confidence interval
+    /// follows by Student's t distribution. `None` without variance, or if they are not known.
+    pub degrees_of_freedom: Option<u32>,
     /// The first hits, if the render recorded them.
     pub layers: Option<Layers>,
     /// What the film keeps, bit by bit, if the picture is of a [part](crate::render::Part) of a render:
@@ -51,7 +56,15 @@ impl Picture {
     /// A whole image with these colours, without variance or layers.
     pub fn new(resolution: UVec2, color: Vec<Spectrum>) -> Self {
         let window = Window::full(resolution);
-        Self { resolution, window, color, variance: None, layers: None, planes: Vec::new() }
+        Self {
+            resolution,
+            window,
+            color,
+            variance: None,
+            degrees_of_freedom: None,
+            layers: None,
+            planes: Vec::new(),
+        }
     }
 
     /// Standard error of the radiance: the root of the mean variance over all bands of all pixels whose variance is

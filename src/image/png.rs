@@ -190,5 +190,5 @@ pub(super) fn decode(source: impl BufRead + Seek, limit: u64) -> Result<Image, R
             Spectrum::new(band(0), band(1), band(2))
         }
     }));
-    Ok(Image { size, pixels, variance: None, encoding: Encoding::Srgb })
+    Ok(Image { size, pixels, variance: None, degrees_of_freedom: None, encoding: Encoding::Srgb })
 }

@@ -2,11 +2,15 @@
 
 use glam::UVec2;
 
-use super::CompareError;
 use super::errors::{check, place};
+use super::{CompareError, StudentT};
 use crate::image::Image;
 
-/// Result of [`z_test`]. z is the difference of two values over its standard error.
+/// Result of [`z_test`].
+///
+/// t is the difference of two values over its standard error. z is what a normal variable exceeds as rarely as t is
+/// exceeded, if noise alone makes the values differ: by Student's t distribution, with the degrees of freedom of both
+/// variances by Welch and Satterthwaite. With infinitely many, z and t are equal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ZTest {
     /// Number of tests: one for each band of each pixel with a finite variance above zero.
@@ -22,7 +26,8 @@ pub struct ZTest {
     pub mean_square: f64,
 }
 
-/// Tests each band of each pixel, by the variances stored in the images. `None` if neither image has any.
+/// Tests each band of each pixel, by the variances stored in the images and their degrees of freedom. Where these are
+/// not known, they are taken to be infinite. `None` if neither image has variances.
 ///
 /// # Errors
 /// As [`Errors::between`](super::Errors::between).
@@ -34,6 +39,9 @@ pub fn z_test(image: &Image, reference: &Image) -> Result<Option<ZTest>, Compare
     let variance = |image: &Image, index: usize| {
         image.variance.as_ref().map_or([0.0; 3], |variance| variance[index].to_array())
     };
+    // The squared variance of a variance is its square over half the degrees of freedom.
+    let per_degree = [image, reference]
+        .map(|image| image.degrees_of_freedom.map_or(0.0, |n| 1.0 / f64::from(n)));
     let mut z = Vec::new();
     for index in 0..image.pixels.len() {
         let bands =
@@ -44,11 +52,17 @@ pub fn z_test(image: &Image, reference: &Image) -> Result<Option<ZTest>, Compare
             // Rounding of both values to f32.
             let rounding = (4e-6 * a.abs().max(b.abs())).powi(2);
             if va + vb > 0.0 && va + vb < f64::INFINITY {
-                z.push(((a - b).abs() / (va + vb + rounding).sqrt(), index));
+                let t = (a - b).abs() / (va + vb + rounding).sqrt();
+                // Welch 1947, "The generalization of `Student's' problem when several different population variances
+                // are involved".
+                let [share_a, share_b] = [va, vb].map(|v| v / (va + vb));
+                let inverse = share_a.powi(2) * per_degree[0] + share_b.powi(2) * per_degree[1];
+                let distribution = StudentT { degrees_of_freedom: 1.0 / inverse };
+                z.push((distribution.normal_deviate(t), index));
             }
         }
     }
-    let limit = sidak(z.len());
+    let limit = StudentT::NORMAL.two_sided_quantile(sidak(z.len()));
     let largest =
         z.iter().copied().fold((0.0, 0), |worst, one| if one.0 > worst.0 { one } else { worst });
     Ok(Some(ZTest {
@@ -60,18 +74,7 @@ pub fn z_test(image: &Image, reference: &Image) -> Result<Option<ZTest>, Compare
     }))
 }
 
-/// Two-sided critical value of z at the significance 0.01 over this many independent tests: by bisection of the normal
-/// distribution's tail, φ(z)/z (1 - 1/z² + 3/z⁴) (Abramowitz and Stegun 26.2.12), within 1 % from z = 3 on.
+/// The significance of each of this many independent tests that gives all of them together 0.01.
 fn sidak(tests: usize) -> f64 {
-    let probability = 1.0 - 0.99_f64.powf(1.0 / tests.max(1) as f64);
-    let tail = |z: f64| {
-        let density = (-0.5 * z * z).exp() / std::f64::consts::TAU.sqrt();
-        2.0 * density / z * (1.0 - 1.0 / (z * z) + 3.0 / z.powi(4))
-    };
-    let (mut low, mut high) = (2.0, 12.0);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if tail(middle) > probability { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
+    -(0.99_f64.ln() / tests.max(1) as f64).exp_m1()
 }

@@ -57,8 +57,8 @@ pub const SEED: Key<u64> =
     Key::new("seed", "seed of the random numbers").default(SamplerSettings::DEFAULT.seed);
 pub const REPLICATES: Key<u32> = Key::new(
     "replicates",
-    "independent sets of samples, from which the error is estimated; for all samplers but \"independent\". Rounded \
-     down to a divisor of spp",
+    "independent sets of samples, from which the error is estimated; for all samplers but \"independent\". At most \
+     spp",
 )
 .at_least(1.0)
 .at_most(SamplerSettings::MAX_SETS as f64)

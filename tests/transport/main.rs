@@ -8,6 +8,7 @@ mod scenes;
 mod statistics;
 
 mod closed_forms;
+mod coverage;
 mod dimensions;
 mod estimators;
 mod film_error;

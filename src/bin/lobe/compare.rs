@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use lobe::image::{check_writable, write_file};
+use lobe::image::{Image, check_writable, write_file};
 use lobe::metrics::{CompareError, ErrorMap, Errors, Exposures, Viewing, ZTest, z_test};
 
 use crate::images::MemoryArgument;
@@ -19,10 +19,12 @@ Examples:
 relMSE is the mean of (a - b)² / (b² + 0.01), where b is the reference. The peak of PSNR is
 1 for PNG files and the reference's largest value for radiance. FLIP is the perceived
 difference when flipping between both images, 0.7 m in front of a 4K screen 0.7 m wide; for
-radiance it is the maximum over several exposures. The Z-test uses the variance layers of
-both files. It needs good estimates of the variance: from independent samples, or from 16 sets
-of others (--set sampler.replicates=16). With the default of 2 sets it fails where both agree
-by chance.";
+radiance it is the maximum over several exposures.
+
+The Z-test tells whether noise explains the difference, by the variance layers of both files. A
+difference over its standard error follows Student's t distribution if both pictures agree; z is
+what a normal variable exceeds as rarely. The fewer degrees of freedom, which are stored in the
+files, the larger a difference has to be. If none are stored, they are taken to be infinite.";
 
 /// Compares an image with a reference: MSE, MAE, relMSE, PSNR, FLIP, and whether noise explains the difference
 #[derive(Args)]
@@ -81,6 +83,17 @@ fn limit(text: &str) -> Result<(Metric, f64), String> {
     if value.is_nan() { Err("a limit cannot be NaN".into()) } else { Ok((metric, value)) }
 }
 
+/// Degrees of freedom of both variances.
+fn degrees_of_freedom(images: [&Image; 2]) -> String {
+    let [image, reference] =
+        images.map(|image| match (&image.variance, image.degrees_of_freedom) {
+            (None, _) => "no variance".to_owned(),
+            (Some(_), Some(degrees)) => degrees.to_string(),
+            (Some(_), None) => "unknown, taken as infinite".to_owned(),
+        });
+    format!("{image} (image), {reference} (reference)")
+}
+
 /// Path of the map with this name.
 fn map_path(prefix: &Path, name: &str) -> PathBuf {
     let mut path = prefix.to_owned().into_os_string();
@@ -133,11 +146,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
             "z-tested",
             format!("{tested} values, one for each band of each pixel with a variance"),
         );
+        summary.add("z-degrees", degrees_of_freedom([&image, &reference]));
         summary.add("z-failed", format!("{failed} above {limit:.2} standard errors"));
         summary.add("z-largest", format!("{largest:.2} at ({}, {})", at.x, at.y));
         summary.add("z-square", format!("{mean_square:.4} mean of z^2; noise alone gives 1"));
         if failed > 0 {
-            let note = "what fails may be a poor estimate of the variance: see lobe compare --help";
+            let note = "a few that fail may be pixels with rare or equal samples: their variance is underestimated";
             summary.add("z-note", note);
         }
     }

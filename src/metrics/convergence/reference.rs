@@ -34,7 +34,9 @@ impl Reference {
     /// A reference from the mean of at least two pictures, in which all values are finite.
     pub fn new(parts: &RunningMean, size: UVec2) -> Self {
         let (pixels, variance) = parts.pixels();
-        let image = Image { size, pixels, variance, encoding: Encoding::Linear };
+        let degrees_of_freedom = parts.degrees_of_freedom();
+        let image =
+            Image { size, pixels, variance, degrees_of_freedom, encoding: Encoding::Linear };
         let mut squares: Vec<f64> = parts
             .moments()
             .map(|(mean, variance)| (variance / rel_mse_denominator(mean)).element_sum() / 3.0)

@@ -50,6 +50,11 @@ impl RunningMean {
         (mean, (self.count > 1).then(|| self.squares.iter().map(variance).collect()))
     }
 
+    /// Degrees of freedom of that variance: the pictures less one.
+    pub fn degrees_of_freedom(&self) -> Option<u32> {
+        self.count.checked_sub(1).filter(|&degrees| degrees > 0)
+    }
+
     /// Restores the mean of `count` pictures from the result of [`pixels`](Self::pixels), stored in an image. It was
     /// rounded to f32. An image without variance counts as one picture.
     pub fn from_image(image: &Image, count: u32) -> Self {

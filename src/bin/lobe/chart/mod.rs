@@ -164,7 +164,13 @@ fn decode_added(
     for (Added { path, .. }, file) in arguments.add.iter().zip(files) {
         let image = arguments.memory.decode(file)?;
         let dark = vec![Spectrum::BLACK; size.x as usize * size.y as usize];
-        let like = Image { size, pixels: dark, variance: None, encoding: Encoding::Linear };
+        let like = Image {
+            size,
+            pixels: dark,
+            variance: None,
+            degrees_of_freedom: None,
+            encoding: Encoding::Linear,
+        };
         Errors::between(&image, &like).map_err(|error| told(path, error))?;
         images.push(image);
     }

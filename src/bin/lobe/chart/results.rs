@@ -191,7 +191,8 @@ impl Results {
         let (color, variance) = mean.pixels();
         let stored = Image { pixels: color.clone(), variance: variance.clone(), ..image.clone() };
         *mean = RunningMean::from_image(&stored, mean.count());
-        let picture = Picture { variance, ..Picture::new(image.size, color) };
+        let degrees_of_freedom = mean.degrees_of_freedom();
+        let picture = Picture { variance, degrees_of_freedom, ..Picture::new(image.size, color) };
         write_exr(self.mean_path(name, mean.count()), &picture, &Metadata::default())?;
         let _ = fs::remove_file(self.mean_path(name, mean.count() - 1));
         Ok(())
