@@ -12,7 +12,7 @@ use std::path::Path;
 use mutate::{Random, mutate};
 
 /// Changed copies of each file.
-const TRIALS: u64 = 300;
+const TRIALS: u64 = 60;
 
 /// Checks all files of a corpus and their changed copies. What fails is named by file and trial: a test that is to look at
 /// one again calls `mutate` with `Random::new(file, trial)`.
