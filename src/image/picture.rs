@@ -77,15 +77,24 @@ impl Picture {
         (count > 0).then(|| (sum / count as f64).sqrt())
     }
 
-    /// Checks what every writer relies on: the window is not empty and lies in the image, and every list has one value
-    /// for each pixel of the window.
-    pub(super) fn check(&self) -> Result<(), EncodeError> {
+    /// Checks that files can hold an image of this size, before it is rendered.
+    ///
+    /// # Errors
+    /// If a side is too long.
+    pub fn check_resolution(resolution: UVec2) -> Result<(), EncodeError> {
         // OpenEXR stores windows as signed 32-bit integers and allows half their range.
         const LARGEST: u32 = i32::MAX as u32 / 2 - 1;
-        let Self { resolution, window, .. } = self;
         if resolution.max_element() > LARGEST {
             return Err(EncodeError(format!("a file's sides hold at most {LARGEST} pixels")));
         }
+        Ok(())
+    }
+
+    /// Checks what every writer relies on: the window is not empty and lies in the image, and every list has one value
+    /// for each pixel of the window.
+    pub(super) fn check(&self) -> Result<(), EncodeError> {
+        let Self { resolution, window, .. } = self;
+        Self::check_resolution(*resolution)?;
         if window.max.cmpgt(*resolution).any() {
             return Err(EncodeError("its window reaches beyond the image".to_owned()));
         }

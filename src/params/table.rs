@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use super::error::{Fault, Problem};
 use super::hint::hint;
@@ -11,13 +12,13 @@ use super::shown::{Shown, quoted, shortened};
 use super::tree::{Entry, Mark, Node, Value};
 
 /// A tree of values, and the folder of each source, against which its relative paths are resolved.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Document {
     /// The top-level table.
     pub root: Node,
     /// Folders, by [`Mark::source`]. Sources without one use the current directory.
     pub folders: Vec<PathBuf>,
-    files: RefCell<Vec<PathBuf>>,
+    files: Mutex<Vec<PathBuf>>,
 }
 
 /// A table of a document. A table that is left out reads as an empty one. It records which keys may be read and which
@@ -44,12 +45,12 @@ impl Document {
 
     /// A tree whose paths are relative to these folders, by [`Mark::source`].
     pub fn in_folders(root: Node, folders: Vec<PathBuf>) -> Self {
-        Self { root, folders, files: RefCell::default() }
+        Self { root, folders, files: Mutex::default() }
     }
 
     /// The files that have been read from the document so far: all values of keys for paths.
     pub fn files(&self) -> Vec<PathBuf> {
-        self.files.borrow().clone()
+        self.files.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// The root table, with `title` as its name in messages. Its keys have to be among `keys`.
@@ -137,7 +138,11 @@ impl<'a> Table<'a> {
         match T::from_value(&node.value, key.limits()) {
             Some(value) => {
                 let value = value.placed(folder.map_or(Path::new(""), |folder| folder));
-                self.document.files.borrow_mut().extend(value.file().map(Path::to_owned));
+                if let Some(file) = value.file() {
+                    let mut files =
+                        self.document.files.lock().unwrap_or_else(PoisonError::into_inner);
+                    files.push(file.to_owned());
+                }
                 Ok(value)
             }
             None => Err(self.unfit(key, node, node.value.to_string(), key.expected())),

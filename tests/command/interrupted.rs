@@ -233,6 +233,16 @@ fn outputs_are_not_the_scenes_own_files() {
     }
 }
 
+/// Before anything is rendered. Seen to fail with the check left to the writing.
+#[test]
+fn sizes_that_no_file_holds_are_refused() {
+    let folder = Folder::new("sides");
+    folder.fails(
+        "render s.toml --spp 100000000 --set film.resolution=[2000000000,1] --set film.crop=[0,0,1,1]",
+        "a file's sides hold at most 1073741822 pixels, but film.resolution is 2000000000 x 1",
+    );
+}
+
 /// A thousand threads where memory allows few: those that there are render. Seen to abort with threads that start without
 /// asking for memory, and with all starting at once.
 #[test]

@@ -3,6 +3,7 @@
 
 mod images;
 mod mutate;
+mod runs;
 mod scenes;
 
 use std::fs;

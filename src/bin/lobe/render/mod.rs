@@ -1,27 +1,25 @@
 //! `lobe render`: renders a scene file to PNG and EXR.
 
+mod job;
 mod summary;
 
 use std::error::Error;
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Mutex;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use clap::Args;
 use clap::value_parser;
-use lobe::image::{Metadata, PartMetadata};
-use lobe::render::{Checkpoint, Part, Progress, Rendered, Saving};
-use lobe::scene_file::LoadedScene;
+use lobe::render::{Part, Progress, Saving};
 use lobe::{RenderOptions, render};
 
 use crate::arguments::{ThreadsArgument, part, seconds};
 use crate::interrupt;
-use crate::output::{Format, Output};
 use crate::progress::Bar;
 use crate::scene::{IsaArgument, SceneArguments};
-use crate::state::State;
+use job::Job;
 
 const EXAMPLES: &str = r#"Examples:
   lobe render chapter8.toml                             writes chapter8.png and chapter8.exr here
@@ -94,157 +92,54 @@ pub struct Arguments {
     quiet: bool,
 }
 
-impl Arguments {
-    fn outputs(&self) -> Result<Vec<Output>, Box<dyn Error>> {
-        let endings = match self.shard {
-            Some(Part { index, count }) => vec![format!("-{}-of-{count}.exr", index + 1)],
-            None => vec![".png".to_owned(), ".exr".to_owned()],
-        };
-        let outputs = Output::all(&self.output, &self.scene.path, &endings)?;
-        if self.shard.is_some() && outputs.iter().all(|output| output.format != Format::Exr) {
-            return Err(
-                "parts are merged from EXR files: give an output whose name ends in .exr".into()
-            );
-        }
-        Ok(outputs)
-    }
-
-    /// What decides about the picture: the scene, and the arguments that change which samples are taken or what is kept.
-    fn identity(&self, loaded: &LoadedScene, layers: bool) -> String {
-        let mut lines = loaded.identity();
-        lines.retain(|line| {
-            !["sampler.seed = ", "sampler.spp = "].iter().any(|key| line.starts_with(key))
-        });
-        lines.push(format!("seed = {}", loaded.settings.sampler.seed));
-        lines.push(format!(
-            "samples per pixel = {}",
-            self.spp.unwrap_or(loaded.settings.sampler.spp)
-        ));
-        lines.push(format!("layers = {layers}"));
-        lines.join("\n")
-    }
-
-    /// A state is of one part, too.
-    fn identity_of_state(&self, identity: &str) -> String {
-        match self.shard {
-            Some(Part { index, count }) => format!("{identity}\nshard = {}/{count}", index + 1),
-            None => identity.to_owned(),
-        }
-    }
-
-    /// What merging needs to know about a part. One that lacks samples is none.
-    fn part(&self, all_samples: u32, rendered: &Rendered, identity: &str) -> Option<PartMetadata> {
-        let part = self.shard.filter(|_| rendered.complete)?;
-        Some(PartMetadata {
-            samples: part.samples(all_samples),
-            all_samples,
-            non_finite: rendered.non_finite,
-            identity: identity.to_owned(),
-        })
-    }
-}
-
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
-    let outputs = arguments.outputs()?;
-    let mut loaded = arguments.scene.load_for(&arguments.isa)?;
-    let files = [loaded.files(), vec![arguments.scene.path.clone()]].concat();
-    Output::check_own(&outputs, &files)?;
-    let sampler = &mut loaded.settings.sampler;
-    sampler.seed = arguments.seed.unwrap_or(sampler.seed);
-    let layers = !arguments.no_layers && outputs.iter().any(|o| o.format == Format::Exr);
-    let spp = arguments.spp.unwrap_or(loaded.settings.sampler.spp);
-    if let Some(part) = arguments.shard
-        && part.samples(spp).is_empty()
-    {
-        let (number, count) = (part.index + 1, part.count);
-        let what =
-            format!("part {number} of {count} has none of the {spp} samples: use fewer parts");
-        return Err(what.into());
-    }
-    let identity = match arguments.resume || arguments.shard.is_some() {
-        true => arguments.identity(&loaded, layers),
-        false => String::new(),
-    };
-    let state = match arguments.resume {
-        true => Some(State::beside(&outputs[0].path, arguments.identity_of_state(&identity))?),
-        false => None,
-    };
-    let stored = state.as_ref().map(State::load).transpose()?.flatten();
-
-    let LoadedScene { scene, view, settings, .. } = &loaded;
-    let metadata = |rendered: &Rendered| Metadata {
-        scene: arguments.scene.path.display().to_string(),
-        seed: settings.sampler.seed,
-        samples_per_pixel: rendered.samples_per_pixel,
-        seconds: rendered.seconds,
-        part: arguments.part(spp, rendered, &identity),
-    };
-    // The last failure to save: it does not end the render.
-    let unsaved = Mutex::new(None);
-    let save = |checkpoint: &Checkpoint| {
-        let saved = state.as_ref().map_or(Ok(()), |state| state.save(checkpoint));
-        let rendered = checkpoint.rendered();
-        let written = saved.map_err(Into::into).and_then(|()| {
-            Output::write_all(
-                &outputs,
-                &rendered.picture,
-                view.film().display,
-                &metadata(&rendered),
-            )
-        });
-        if let Ok(mut unsaved) = unsaved.lock() {
-            *unsaved = written.err().map(|error| error.to_string());
-        }
-    };
-    let bar = (!arguments.quiet).then(|| Bar::new(view.film().window().area() as u64));
+    let job = Job::prepare(arguments)?;
+    let stored = job.stored()?;
+    let window = job.loaded.view.film().window();
+    let bar = (!arguments.quiet).then(|| Bar::new(window.area() as u64));
     let progress = |progress: Progress| bar.iter().for_each(|bar| bar.update(progress));
+    let save = Saving { every: arguments.save_every.as_secs_f64(), to: &|state| job.save(state) };
     let interrupted = interrupt::listen()?;
     let options = RenderOptions {
         threads: arguments.threads.given(),
-        layers,
+        layers: job.layers,
         spp: arguments.spp,
         time: arguments.time,
         part: arguments.shard,
         progress: Some(&progress),
         cancel: Some(&interrupted),
-        save: state
-            .is_some()
-            .then_some(Saving { every: arguments.save_every.as_secs_f64(), to: &save }),
+        save: arguments.resume.then_some(save),
         resume: stored.as_deref(),
         ..RenderOptions::default()
     };
-    let rendered = render(scene, view, settings, &options);
+    let rendered = render(&job.loaded.scene, &job.loaded.view, &job.loaded.settings, &options);
     bar.iter().for_each(Bar::clear);
     let rendered = rendered?;
     let was_interrupted = !rendered.complete && interrupted.load(Ordering::Relaxed);
-    if rendered.empty_pixels == view.film().window().area() as u64 && !rendered.complete {
+    if !rendered.complete && rendered.empty_pixels == window.area() as u64 {
         let why = if was_interrupted { "interrupted" } else { "time was over" };
-        return Err(
-            format!("{why} before any part of the picture was done: nothing is written").into()
-        );
+        let what = format!("{why} before any part of the picture was done: nothing is written");
+        return Err(what.into());
     }
     let start = Instant::now();
-    let metadata = metadata(&rendered);
-    Output::write_or_keep(&outputs, &rendered.picture, view.film().display, &metadata)?;
-    if rendered.complete {
-        state.iter().for_each(State::remove);
-    }
+    job.finish(&rendered)?;
     if !arguments.quiet {
-        let mut summary = summary::of(&loaded, &rendered, &metadata, &outputs);
+        let mut summary = job.summary(&rendered);
         summary.add("write", format!("{:.3} s", start.elapsed().as_secs_f64()));
-        if let Some(error) = unsaved.into_inner().unwrap_or_default() {
-            summary.add("warning", format!("not saved while rendering: {error}"));
-        }
         summary.print()?;
     }
     if !was_interrupted {
         return Ok(ExitCode::SUCCESS);
     }
-    let go_on = match state {
-        Some(_) => "the same command goes on",
-        None => "with --resume, it could go on",
-    };
     let samples = rendered.samples_per_pixel;
-    eprintln!("interrupted after {samples} samples per pixel; what there is was written; {go_on}");
+    let go_on = match arguments.resume {
+        true => "the same command goes on",
+        false => "with --resume, it could go on",
+    };
+    // If stderr is closed, the exit code still tells.
+    let _ = writeln!(
+        std::io::stderr(),
+        "interrupted after {samples} samples per pixel; what there is was written; {go_on}"
+    );
     Ok(interrupt::exit_code())
 }

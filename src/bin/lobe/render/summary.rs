@@ -1,22 +1,17 @@
 //! What `lobe render` prints at its end.
 
-use lobe::image::Metadata;
+use std::path::Path;
+
 use lobe::render::Rendered;
 use lobe::scene_file::LoadedScene;
 
-use crate::output::Output;
 use crate::summary::Summary;
 
-/// The summary of a render whose pictures were written.
-pub fn of(
-    loaded: &LoadedScene,
-    rendered: &Rendered,
-    metadata: &Metadata,
-    outputs: &[Output],
-) -> Summary {
+/// The summary of a render of the scene in this file.
+pub fn of(loaded: &LoadedScene, rendered: &Rendered, file: &Path) -> Summary {
     let LoadedScene { scene, view, report, .. } = loaded;
     let mut summary = Summary::default();
-    summary.add("scene", &metadata.scene);
+    summary.add("scene", file.display());
     summary.add_film(view.film());
     summary.add("samples", format!("{} per pixel", rendered.samples_per_pixel));
     summary.add_meshes(scene);
@@ -31,9 +26,6 @@ pub fn of(
     summary.add_error(&rendered.picture);
     add_faults(&mut summary, rendered);
     summary.add_warnings(scene, report);
-    for output in outputs {
-        summary.add("wrote", output.path.display());
-    }
     summary
 }
 
