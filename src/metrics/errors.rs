@@ -34,6 +34,9 @@ pub enum CompareError {
         "one image is linear (EXR, PFM), the other one encoded for a screen (PNG): compare two of one kind"
     )]
     Encoding,
+    /// There is not enough memory.
+    #[error("comparing {} x {} pixels takes {1} MiB of memory, which are not available", .0.x, .0.y)]
+    OutOfMemory(UVec2, u64),
     /// One image has values that are not finite.
     #[error("{count} pixels of the {which} are not finite, at {}: no mean over them would mean anything", positions(.first, *.count))]
     NotFinite {
@@ -112,6 +115,9 @@ pub(super) fn place(index: usize, size: UVec2) -> UVec2 {
     UVec2::new((index % width) as u32, (index / width) as u32)
 }
 
+/// Bytes for each pixel that any of the comparisons takes, FLIP the most.
+const MEMORY: u64 = 256;
+
 /// Checks that the images can be compared.
 pub(super) fn check(image: &Image, reference: &Image) -> Result<(), CompareError> {
     if image.size != reference.size {
@@ -119,6 +125,12 @@ pub(super) fn check(image: &Image, reference: &Image) -> Result<(), CompareError
     }
     if image.encoding != reference.encoding {
         return Err(CompareError::Encoding);
+    }
+    let bytes = MEMORY * image.pixels.len() as u64;
+    let is_available =
+        usize::try_from(bytes).is_ok_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok());
+    if !is_available {
+        return Err(CompareError::OutOfMemory(image.size, bytes.div_ceil(1 << 20)));
     }
     for (which, image) in [("image", image), ("reference", reference)] {
         let is_odd = |index: &usize| !image.pixels[*index].is_finite();

@@ -131,3 +131,13 @@ fn pipes_and_devices_are_refused() {
     let missing = "cannot read `no.exr`: there is no such file";
     folder.fails("compare no.exr no.exr", missing);
 }
+
+/// Two images that can be read, and not compared in the memory that is left. Seen to abort without the check.
+#[cfg(target_os = "linux")]
+#[test]
+fn comparing_within_memory() {
+    let folder = Folder::new("compare-memory");
+    png(&folder, "a.png", 1500);
+    let message = "comparing 1500 x 1500 pixels takes 550 MiB of memory, which are not available";
+    fails_within(&folder, "compare a.png a.png", message);
+}
