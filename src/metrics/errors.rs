@@ -35,7 +35,7 @@ pub enum CompareError {
     )]
     Encoding,
     /// There is not enough memory.
-    #[error("comparing {} x {} pixels takes {1} MiB of memory, which are not available", .0.x, .0.y)]
+    #[error("comparing {} x {} pixels takes {} MiB of memory, which are not available", .0.x, .0.y, .1)]
     OutOfMemory(UVec2, u64),
     /// One image has values that are not finite.
     #[error("{count} pixels of the {which} are not finite, at {}: no mean over them would mean anything", positions(.first, *.count))]
