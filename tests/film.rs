@@ -216,7 +216,7 @@ fn variances_are_pooled_with_neighbours() {
     let sixth = 0.5 * (1.0 + 9.0 + 9.0) / 5.0;
     let expected = [
         [0.5 / 3.0, sixth, 4.5 + 0.5 * 10.0 / 3.0],
-        [0.5 / 5.0, 0.5 + 0.5 * 27.0 / 8.0, 4.5 + 0.5 * 19.0 / 5.0],
+        [1.0 / 8.0, 0.5 + 0.5 * 27.0 / 8.0, 4.5 + 0.5 * 19.0 / 5.0],
         [0.5 / 3.0, sixth, 4.5 + 0.5 * 10.0 / 3.0],
     ];
     for (index, expected) in expected.into_iter().flatten().enumerate() {

@@ -329,7 +329,9 @@ fn exr_holds_what_was_written() {
 
         assert_eq!(layer.attributes.software_name, Some(Text::from(SOFTWARE)));
         let other = &layer.attributes.other;
-        assert_eq!(other.len(), 4);
+        let degrees = picture.degrees_of_freedom.map(|n| AttributeValue::I32(n as i32));
+        assert_eq!(other.get(&Text::from("varianceDegreesOfFreedom")), degrees.as_ref());
+        assert_eq!(other.len(), if degrees.is_some() { 5 } else { 4 });
         for (name, value) in [
             ("scene", AttributeValue::Text(Text::from("the chapter's dragon"))),
             ("seed", AttributeValue::Text(Text::from("18446744073709551614"))),

@@ -87,9 +87,9 @@ impl Film {
         let area = window.area();
         let first_hits = if contents.first_hits { size_of::<FirstHits>() } else { 0 };
         // Radiance and first hits three times: as sums, in the picture, and in the file that is written. The variance once
-        // as sums, and three times as a spectrum: by pixel, pooled, and in the file.
+        // as sums, and twice as a spectrum: pooled, and either by pixel before that or in the file after it.
         let variance = contents.variance.bytes();
-        let developed = if variance > 0 { 3 * size_of::<Spectrum>() as u64 } else { 0 };
+        let developed = if variance > 0 { 2 * size_of::<Spectrum>() as u64 } else { 0 };
         let per_pixel = 3 * (size_of::<PixelSum>() + first_hits) as u64 + variance + developed;
         let bytes = (area as u64).saturating_mul(per_pixel);
         let too_large = FilmError::TooLarge(window.size().x, window.size().y, bytes >> 20);
