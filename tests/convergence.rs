@@ -230,7 +230,7 @@ fn lines_that_are_no_runs_are_refused() {
         assert_eq!(message, format!("`{line}` is not a line of runs.csv: {problem}"));
     }
     let long = format!("\"\u{1b}{}", "x".repeat(200)).parse::<Run>().unwrap_err().to_string();
-    let shown = format!("`\"\u{fffd}{}…`", "x".repeat(98));
+    let shown = format!("`\"\\u{{1b}}{}`", "x".repeat(200));
     assert_eq!(long, format!("{shown} is not a line of runs.csv: expected {}", Run::HEADER));
 }
 

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::ops::Range;
 
-use super::options::{Progress, Rendered};
+use super::rendered::{Progress, Rendered};
 use super::tiles::Tiles;
 use crate::clock::Stopwatch;
 use crate::film::Film;

@@ -1,4 +1,4 @@
-//! [`RenderOptions`] and [`Rendered`]: what goes into a render beside scene, view and settings, and what comes out.
+//! [`RenderOptions`]: what goes into a render beside scene, view and settings.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
@@ -6,10 +6,9 @@ use std::time::Duration;
 
 use super::checkpoint::{ResumeError, Saving};
 use super::part::Part;
+use super::rendered::{Progress, Rendered};
 use super::settings::SettingsError;
 use crate::film::FilmError;
-use crate::image::Picture;
-use crate::integrator::Counters;
 
 /// How to render. Apart from `spp`, `time`, `layers` and `cancel` none of it changes what comes out.
 #[derive(Clone, Copy)]
@@ -26,11 +25,11 @@ pub struct RenderOptions<'a> {
     /// samples depends on the machine. Ignored on `wasm32-unknown-unknown`, which has no clock.
     pub time: Option<Duration>,
     /// Which of the samples are taken, for a render in parts; `None` for all. The pictures of parts have
-    /// [`planes`](Picture::planes), from which [`Film::from_planes`](crate::film::Film::from_planes) and
+    /// [`planes`](crate::image::Picture::planes), from which [`Film::from_planes`](crate::film::Film::from_planes) and
     /// [`Film::merge`](crate::film::Film::merge) make the picture of all samples.
     pub part: Option<Part>,
     /// Whether to keep normal, depth and albedo of the first hits, the number of samples, and the variance of each
-    /// pixel, from which [`Picture::standard_error`] is.
+    /// pixel, from which [`Picture::standard_error`](crate::image::Picture::standard_error) is.
     pub layers: bool,
     /// Called after every tile by the thread that rendered it. Other threads wait to deliver theirs until it
     /// returns, so it should be quick.
@@ -64,44 +63,6 @@ impl Default for RenderOptions<'_> {
             resume: None,
         }
     }
-}
-
-/// How far a render is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
-    /// Pixels that are done in this pass.
-    pub pixels: u64,
-    /// Number of all pixels.
-    pub total_pixels: u64,
-    /// Samples in each pixel that earlier passes took; with [`RenderOptions::time`] there are several.
-    pub samples: u32,
-    /// Rays traced so far.
-    pub rays: u64,
-}
-
-/// What a render gives, complete or not.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct Rendered {
-    /// The developed film. Each pixel is the mean of its own samples.
-    pub picture: Picture,
-    /// What was done, including samples of tiles that a cancelled render did not finish.
-    pub counters: Counters,
-    /// Samples of whole passes, the same number in each pixel. When a render is cancelled, pixels in tiles that its
-    /// last pass finished have more; [`Layers::samples`](crate::image::Layers::samples) tells how many.
-    pub samples_per_pixel: u32,
-    /// Whether all samples were taken that were asked for, or that `time` allowed in whole passes. It is false if the render
-    /// was cancelled or time ended within a pass, and for [`RenderOptions::on_pass`], since more may come.
-    pub complete: bool,
-    /// Pixels without any sample, which are black: those that a cancelled render did not reach, and those whose samples
-    /// were all left out.
-    pub empty_pixels: u64,
-    /// Samples, and first hits of [`RenderOptions::layers`], that were left out because they were not finite.
-    pub non_finite: u64,
-    /// How many threads took part.
-    pub threads: usize,
-    /// Wall-clock time in seconds.
-    pub seconds: f64,
 }
 
 /// Why there is no picture.

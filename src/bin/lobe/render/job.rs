@@ -7,7 +7,8 @@ use lobe::image::{Metadata, PartMetadata, Picture};
 use lobe::render::{Checkpoint, Part, Rendered};
 use lobe::scene_file::LoadedScene;
 
-use super::{Arguments, summary};
+use super::arguments::Arguments;
+use super::summary;
 use crate::output::{Format, Output};
 use crate::state::State;
 use crate::summary::Summary;
