@@ -200,8 +200,8 @@ fn quantiles_of_student_t_are_those_of_tables() {
     }
 }
 
-/// Where the approximation takes over from the exact way, and at the ends of the range. Seen to fail with a Newton step fewer
-/// than one.
+/// Where the approximation takes over from the exact way, and at the ends of the range. Seen to fail without
+/// Newton's steps.
 #[test]
 fn normal_deviates_are_smooth_and_finite() {
     for t in [1e-3, 0.7, 2.0, 5.0, 9.0] {
