@@ -5,7 +5,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError, mpsc};
 
 use super::checkpoint::{Checkpoint, State};
 use super::pass::Pass;
-use super::worker::Worker;
+use super::worker::{Worker, is_available};
 use crate::clock::Stopwatch;
 use crate::film::FilmError;
 
@@ -80,11 +80,6 @@ impl Pass<'_> {
 /// Address space that a thread may take from the system, beside its worker's buffers: a stack of 2 MiB, and 128 MiB that
 /// glibc reserves for a thread's allocations.
 const MEMORY: usize = 160 << 20;
-
-/// Whether this number of bytes could be allocated.
-pub fn is_available(bytes: usize) -> bool {
-    Vec::<u8>::new().try_reserve_exact(bytes).is_ok()
-}
 
 /// A poisoned lock means that another worker panicked, which ends the scope anyway.
 fn lock(shared: &Mutex<State>) -> MutexGuard<'_, State> {

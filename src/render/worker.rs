@@ -4,7 +4,6 @@ use glam::{UVec2, Vec2};
 
 use super::pass::Pass;
 use super::samples::Samples;
-use super::threads::is_available;
 use crate::bxdf::BxdfFlags;
 use crate::film::{Film, FilmError};
 use crate::image::Window;
@@ -109,6 +108,11 @@ impl<'a> Worker<'a> {
         }
         wave.arena.reset();
     }
+}
+
+/// Whether this number of bytes could be allocated.
+pub fn is_available(bytes: usize) -> bool {
+    Vec::<u8>::new().try_reserve_exact(bytes).is_ok()
 }
 
 /// A rank-1 lattice with the golden ratio as its step.

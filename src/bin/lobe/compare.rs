@@ -149,7 +149,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         summary.add("z-degrees", degrees_of_freedom([&image, &reference]));
         summary.add("z-failed", format!("{failed} above {limit:.2} standard errors"));
         summary.add("z-largest", format!("{largest:.2} at ({}, {})", at.x, at.y));
-        summary.add("z-square", format!("{mean_square:.4} mean of z^2; noise alone gives 1"));
+        summary.add("z-square", format!("{mean_square:.4} mean of z^2; noise alone gives up to 1"));
         if failed > 0 {
             let note = "a few that fail may be pixels with rare or equal samples: their variance is underestimated";
             summary.add("z-note", note);

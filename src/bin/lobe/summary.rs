@@ -44,7 +44,9 @@ impl Summary {
     pub fn add_error(&mut self, picture: &Picture) {
         match picture.standard_error() {
             Some(error) => {
-                self.add("error", format!("{error:.2e} standard error of a pixel, in radiance"));
+                let error = format!("{error:.2e} standard error of a pixel, in radiance");
+                let degrees = picture.degrees_of_freedom.unwrap_or(0);
+                self.add("error", format!("{error}, with {degrees} degrees of freedom"));
             }
             // Each layer costs time, so there is no error without an EXR.
             None if picture.layers.is_some() => {
