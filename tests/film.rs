@@ -250,8 +250,8 @@ fn degrees_of_freedom_are_those_of_the_poorest_pixel() {
         // One more sample of a set, of a pixel that keeps one sample, and of one that has none.
         film.add_sample(PIXEL, 0, Spectrum::WHITE);
         film.add_sample(UVec2::Y, 0, Spectrum::WHITE);
-        let twice = degrees.map(|degrees| 2 * degrees);
-        assert_eq!(film.develop().degrees_of_freedom, twice, "{variance:?}");
+        let pooled = degrees.map(|degrees| 5 * degrees / 2);
+        assert_eq!(film.develop().degrees_of_freedom, pooled, "{variance:?}");
     }
 }
 

@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use lobe::glam::{UVec2, Vec3};
+use lobe::image::Window;
 use lobe::integrator::PathIntegrator;
 use lobe::light::SkyLight;
 use lobe::render::{Checkpoint, Part, RenderError, Rendered, ResumeError, SamplerSettings, Saving};
@@ -16,14 +17,17 @@ use lobe::{
     FilmSettings, MatteMaterial, PerspectiveSettings, PointLight, RenderOptions, RenderSettings,
     Scene, Spectrum, View, render,
 };
-use scenes::{ball, ball_over_floor, chapter_view};
+use scenes::{ball, ball_over_floor, chapter_camera};
 
 fn scene() -> Scene {
     ball_over_floor().light(SkyLight::new(Spectrum::new(0.1, 0.2, 0.3))).build().unwrap()
 }
 
+/// A crop, whose tiles begin at its corner.
 fn view() -> View {
-    chapter_view(UVec2::new(17, 13))
+    let crop = Some(Window { min: UVec2::new(2, 3), max: UVec2::new(19, 16) });
+    let film = FilmSettings { crop, ..FilmSettings::new(21, 18) };
+    View::perspective(&chapter_camera(), film).unwrap()
 }
 
 fn settings(kind: SamplerKind, spp: u32) -> RenderSettings {

@@ -118,6 +118,14 @@ impl Film {
         }
     }
 
+    /// Bytes of its sums.
+    pub(crate) fn bytes(&self) -> u64 {
+        let FilmContents { variance, first_hits } = self.contents;
+        let first_hits = if first_hits { size_of::<FirstHits>() } else { 0 };
+        let per_pixel = (size_of::<PixelSum>() + first_hits) as u64 + variance.bytes();
+        self.window.area() as u64 * per_pixel
+    }
+
     /// The pixels it is for.
     pub fn window(&self) -> Window {
         self.window
@@ -229,7 +237,8 @@ impl Film {
     }
 
     /// The film that a [part's picture](Self::develop_part) was developed from, but for
-    /// [`non_finite`](Self::non_finite); `None` if the picture has no such planes.
+    /// [`non_finite`](Self::non_finite); `None` if the picture has no such planes, or a pixel has more than `most_samples`
+    /// samples.
     ///
     /// # Errors
     /// Those of [`Film::new`].
@@ -237,6 +246,7 @@ impl Film {
         resolution: UVec2,
         window: Window,
         planes: &[Plane],
+        most_samples: u32,
     ) -> Result<Option<Self>, FilmError> {
         let variance = VarianceSums::kind(planes);
         let contents = FilmContents { variance, first_hits: Kind::FirstHits.words(planes) > 0 };
@@ -246,16 +256,19 @@ impl Film {
         let is_whole = Kind::Sum.words(planes) > 0
             && Kind::Sum.restore(&mut film.pixels, pixels, planes).is_some()
             && film.variance.restore_planes(pixels, planes).is_some()
-            && Kind::FirstHits.restore(first_hits, pixels, planes).is_some();
+            && Kind::FirstHits.restore(first_hits, pixels, planes).is_some()
+            && film.pixels.iter().all(|sum| sum.samples <= most_samples)
+            && film.variance.counts().all(|samples| samples <= most_samples)
+            && film.first_hits.iter().flatten().all(|sum| sum.hits <= most_samples);
         Ok(is_whole.then_some(film))
     }
 
-    /// The degrees of freedom of the pooled variance in the pixel that has the fewest: twice its own, if there are
-    /// neighbours. `None` if no pixel has any.
+    /// The degrees of freedom of the pooled variance in the pixel that has the fewest: five halves of its own, if there
+    /// are neighbours (see [`pooled`]). `None` if no pixel has any.
     fn degrees_of_freedom(&self) -> Option<u32> {
         let of = |(index, sum)| self.variance.degrees_of_freedom(index, sum);
         let own = self.pixels.iter().enumerate().map(of).filter(|&degrees| degrees > 0).min()?;
-        Some(if self.pixels.len() > 1 { own.saturating_mul(2) } else { own })
+        Some(if self.pixels.len() > 1 { own.saturating_mul(5) / 2 } else { own })
     }
 
     /// The variance of each pixel's mean from its own samples, infinite where there is no estimate; `None` if no pixel has one.

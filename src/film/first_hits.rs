@@ -13,7 +13,7 @@ pub(super) struct FirstHits {
     normal: [f64; 3],
     depth: f64,
     albedo: [f64; 3],
-    hits: u32,
+    pub hits: u32,
 }
 
 impl Stored for FirstHits {

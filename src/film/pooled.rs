@@ -9,8 +9,10 @@ use crate::spectrum::Spectrum;
 ///
 /// Few sets may agree by chance: all samples of a pixel in a penumbra may be in shadow, and at a silhouette each set may
 /// hit as often. Alone, such a pixel would claim no error. If neighbours tell as much as the pixel does, the pooled
-/// variance has twice the degrees of freedom of a pixel. Coverage and failed tests with this and other ways are in
-/// docs/measurements.md.
+/// variance has 3.6 times the degrees of freedom of a pixel (Satterthwaite 1946); five halves are counted, by which the
+/// stated intervals hold the truth as often as they say. Measurements of this and other ways are in docs/measurements.md.
+///
+/// What it costs: a pixel that is noisier than all its neighbours claims down to half of its variance.
 ///
 /// Infinite variances are unknown: they stay, and do not count as neighbours.
 pub(super) fn pooled(size: UVec2, raw: &[Spectrum]) -> Vec<Spectrum> {

@@ -90,6 +90,12 @@ impl VarianceSums {
         }
     }
 
+    /// Numbers of samples in sets.
+    pub fn counts(&self) -> impl Iterator<Item = u32> {
+        let sums = if let Self::Sets(_, sums) = self { &sums[..] } else { &[] };
+        sums.iter().map(|sum| sum.samples)
+    }
+
     /// Appends all sums of `pixels` pixels.
     pub fn push_planes(&self, pixels: usize, to: &mut Vec<Plane>) {
         match self {

@@ -1,9 +1,9 @@
 //! Writing files whole or not at all.
 
-use std::fs::{self, File, Permissions};
+use std::fs::{self, File, Permissions, TryLockError};
+use std::hash::{BuildHasher, RandomState};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::WriteError;
 
@@ -134,13 +134,14 @@ struct Temporary {
     target: Target,
     /// The target as the caller named it.
     given: PathBuf,
+    is_renamed: bool,
 }
 
 impl Temporary {
     fn beside(path: &Path) -> Result<Self, WriteError> {
         let (target, given) = (Target::resolve(path)?, path.to_owned());
         match create_hidden(folder_of(&target.path)) {
-            Ok((file, path)) => Ok(Self { file, path, target, given }),
+            Ok((file, path)) => Ok(Self { file, path, target, given, is_renamed: false }),
             Err(error) => Err(WriteError::System { path: given, error }),
         }
     }
@@ -162,16 +163,20 @@ impl Temporary {
     }
 
     /// Renames to the target.
-    fn finish(self) -> Result<(), WriteError> {
+    fn finish(mut self) -> Result<(), WriteError> {
         fs::rename(&self.path, &self.target.path)
-            .map_err(|error| WriteError::System { path: self.given.clone(), error })
+            .map_err(|error| WriteError::System { path: self.given.clone(), error })?;
+        self.is_renamed = true;
+        Ok(())
     }
 }
 
 impl Drop for Temporary {
     fn drop(&mut self) {
-        // After a successful rename this finds no file, which is no error here.
-        let _ = fs::remove_file(&self.path);
+        // After renaming, another process may have a file of this name.
+        if !self.is_renamed {
+            let _ = fs::remove_file(&self.path);
+        }
     }
 }
 
@@ -181,25 +186,30 @@ const NAME: (&str, &str) = (".lobe-", ".tmp");
 
 /// Creates a file that no other thread or process uses, and locks it: [`sweep_temporaries`] removes files that nobody has locked.
 fn create_hidden(folder: &Path) -> io::Result<(File, PathBuf)> {
-    static COUNT: AtomicU64 = AtomicU64::new(0);
     loop {
-        let count = COUNT.fetch_add(1, Ordering::Relaxed);
-        let path = folder.join(format!("{}{}-{count}{}", NAME.0, std::process::id(), NAME.1));
+        // Random: process ids are the same in many containers.
+        let number = RandomState::new().hash_one(std::process::id());
+        let path = folder.join(format!("{}{}-{number}{}", NAME.0, std::process::id(), NAME.1));
         match File::create_new(&path) {
-            Ok(file) => {
-                // File systems without locks: the file may be swept by a process that starts right now, and its target
-                // is then not written, which is an error.
-                let _ = file.try_lock();
-                // It may have been swept before it was locked.
-                if path.exists() {
-                    return Ok((file, path));
-                }
-            }
-            // Left by a killed process with the same process id, or created on another host.
+            // A file that another process sweeps at this moment is locked by it, or gone when this one has locked it.
+            Ok(file) => match file.try_lock() {
+                Err(TryLockError::WouldBlock) => {}
+                // A file system without locks sweeps nothing.
+                Ok(()) | Err(TryLockError::Error(_)) if path.exists() => return Ok((file, path)),
+                _ => {}
+            },
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
             Err(error) => return Err(error),
         }
     }
+}
+
+/// Whether a file of this name is a temporary one.
+pub fn is_temporary(name: &str) -> bool {
+    name.strip_prefix(NAME.0)
+        .and_then(|rest| rest.strip_suffix(NAME.1))
+        .and_then(|numbers| numbers.split_once('-'))
+        .is_some_and(|(id, number)| id.parse::<u32>().is_ok() && number.parse::<u64>().is_ok())
 }
 
 /// Removes the temporary files that killed processes left in a folder, whatever they were for. Their lock ended with them.
@@ -207,14 +217,13 @@ pub fn sweep_temporaries(folder: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     for path in entries.map(|entry| entry.path()) {
         let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-        let is_temporary = name
-            .strip_prefix(NAME.0)
-            .and_then(|rest| rest.strip_suffix(NAME.1))
-            .and_then(|numbers| numbers.split_once('-'))
-            .is_some_and(|(id, count)| id.parse::<u32>().is_ok() && count.parse::<u64>().is_ok());
         let is_file = || fs::symlink_metadata(&path).is_ok_and(|found| found.is_file());
-        if is_temporary && is_file() && File::open(&path).is_ok_and(|file| file.try_lock().is_ok())
+        if is_temporary(name)
+            && is_file()
+            && let Ok(file) = File::open(&path)
+            && file.try_lock().is_ok()
         {
+            // Still locked, so that nobody else begins to use it.
             let _ = fs::remove_file(&path);
         }
     }

@@ -57,7 +57,9 @@ mod png;
 mod read;
 mod window;
 
-pub use atomic::{check_writable, sweep_temporaries, write_file, write_file_with, write_files};
+pub use atomic::{
+    check_writable, is_temporary, sweep_temporaries, write_file, write_file_with, write_files,
+};
 pub use decoded::{Encoding, Image};
 pub use display::Display;
 pub use error::{EncodeError, ReadError, WriteError};

@@ -136,12 +136,17 @@ const BESIDE: u64 = 64 << 20;
 
 /// Reads what stands before the pixels, which stay within the limit.
 fn open<R: BufRead + Seek>(mut source: R, limit: u64) -> Result<PngDecoder<R>, Refusal> {
-    // The decoder counts a row together with what stands beside the pixels, and a header has the width at byte 16.
-    let mut head = [0; 20];
-    let width = match source.read_exact(&mut head) {
-        Ok(()) => u32::from_be_bytes([head[16], head[17], head[18], head[19]]),
-        Err(_) => 0,
-    };
+    // The decoder counts a row together with what stands beside the pixels. A header has the width at byte 16 and the
+    // height after it: they are asked whether the limit allows them before the decoder is allowed anything for them.
+    let mut head = [0; 24];
+    let (mut width, mut height) = (0, 0);
+    if source.read_exact(&mut head).is_ok() {
+        let side =
+            |at: usize| u32::from_be_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]);
+        (width, height) = (side(16), side(20));
+    }
+    let size = UVec2::new(width, height);
+    check(size, PIXEL * u128::from(area(size)) + 64 * u128::from(width), limit)?;
     source.rewind().map_err(|error| error.to_string())?;
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(BESIDE + 8 * u64::from(width));

@@ -46,14 +46,7 @@ impl StudentT {
 
     /// The z that the normal distribution exceeds as rarely as this one exceeds `t`; both at least 0.
     pub fn normal_deviate(self, t: f64) -> f64 {
-        let nu = self.degrees_of_freedom;
-        // Peizer and Pratt 1968, "A normal approximation for binomial, F, beta, and other common, related tail
-        // probabilities"; the limit is t.
-        let near = if nu.is_infinite() {
-            t
-        } else {
-            (nu - 2.0 / 3.0 + 0.1 / nu) * ((t * t / nu).ln_1p() / (nu - 5.0 / 6.0)).sqrt()
-        };
+        let (nu, near) = (self.degrees_of_freedom, self.about_normal_deviate(t));
         if nu > MANY || t == 0.0 {
             return near;
         }
@@ -70,6 +63,16 @@ impl StudentT {
             }
         }
         z
+    }
+
+    /// [`normal_deviate`](Self::normal_deviate), about: Peizer and Pratt 1968, "A normal approximation for binomial, F, beta,
+    /// and other common, related tail probabilities". The limit is t.
+    pub(super) fn about_normal_deviate(self, t: f64) -> f64 {
+        let nu = self.degrees_of_freedom;
+        if nu.is_infinite() {
+            return t;
+        }
+        (nu - 2.0 / 3.0 + 0.1 / nu) * ((t * t / nu).ln_1p() / (nu - 5.0 / 6.0)).sqrt()
     }
 
     /// The logarithm of the probability that |t| is exceeded, for `t` of at least 0.

@@ -58,11 +58,16 @@ pub fn z_test(image: &Image, reference: &Image) -> Result<Option<ZTest>, Compare
                 let [share_a, share_b] = [va, vb].map(|v| v / (va + vb));
                 let inverse = share_a.powi(2) * per_degree[0] + share_b.powi(2) * per_degree[1];
                 let distribution = StudentT { degrees_of_freedom: 1.0 / inverse };
-                z.push((distribution.normal_deviate(t), index));
+                z.push((distribution.about_normal_deviate(t), distribution, t, index));
             }
         }
     }
     let limit = StudentT::NORMAL.two_sided_quantile(sidak(z.len()));
+    // Exactly where it matters: the approximation is within 13 % there.
+    for (z, distribution, t, _) in z.iter_mut().filter(|(z, ..)| *z > 0.8 * limit) {
+        *z = distribution.normal_deviate(*t);
+    }
+    let z = z.into_iter().map(|(z, _, _, index)| (z, index)).collect::<Vec<_>>();
     let largest =
         z.iter().copied().fold((0.0, 0), |worst, one| if one.0 > worst.0 { one } else { worst });
     Ok(Some(ZTest {

@@ -112,6 +112,11 @@ pub fn render_with(
     };
     let contents = FilmContents { variance, first_hits: options.layers };
     let film = Film::new(view.film().resolution, view.film().window(), contents)?;
+    // In the picture, as channels of a file, and encoded.
+    let planes = if options.part.is_some() { 3 * film.bytes() } else { 0 };
+    if !usize::try_from(planes).is_ok_and(worker::is_available) {
+        return Err(RenderError::OutOfMemory(planes));
+    }
     let mut state =
         State::new(film, samples.clone(), options.part.is_some(), sets, options.tile_size);
     if let Some(bytes) = options.resume {
@@ -140,13 +145,15 @@ pub fn render_with(
             deadline: limit.map(|limit| limit - state.before),
         };
         drop(state);
-        let threads = pass.render(&shared)?;
+        let threads = pass.render(&shared);
         let mut state = lock();
-        state.threads = state.threads.max(threads);
+        if !state.is_whole()
+            && let Some(saving) = options.save
+        {
+            (saving.to)(&Checkpoint(&state));
+        }
+        state.threads = state.threads.max(threads?);
         if !state.is_whole() {
-            if let Some(saving) = options.save {
-                (saving.to)(&Checkpoint(&state));
-            }
             return Ok(state.rendered(false));
         }
         if let Some(on_pass) = options.on_pass {

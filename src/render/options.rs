@@ -10,7 +10,7 @@ use super::rendered::{Progress, Rendered};
 use super::settings::SettingsError;
 use crate::film::FilmError;
 
-/// How to render. Apart from `spp`, `time`, `layers` and `cancel` none of it changes what comes out.
+/// How to render. Apart from `spp`, `time`, `part`, `layers` and `cancel` none of it changes what comes out.
 #[derive(Clone, Copy)]
 pub struct RenderOptions<'a> {
     /// Number of threads; `None` for as many as the machine has.
@@ -72,6 +72,9 @@ pub enum RenderError {
     /// There is not enough memory for the film.
     #[error(transparent)]
     Film(#[from] FilmError),
+    /// There is not enough memory for the buffers of a thread, or for the sums that the picture of a part holds.
+    #[error("rendering needs {} MiB of memory more, which are not available", .0.div_ceil(1 << 20))]
+    OutOfMemory(u64),
     /// The settings ask for no samples.
     #[error(transparent)]
     Settings(#[from] SettingsError),

@@ -10,7 +10,7 @@ pub struct Progress {
     pub pixels: u64,
     /// Number of all pixels.
     pub total_pixels: u64,
-    /// Samples in each pixel that earlier passes took; with [`RenderOptions::time`](super::RenderOptions::time) there are several.
+    /// Samples in each pixel that earlier passes took.
     pub samples: u32,
     /// Rays traced so far.
     pub rays: u64,

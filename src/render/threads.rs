@@ -4,15 +4,15 @@ use std::num::NonZeroUsize;
 use std::sync::{Mutex, MutexGuard, PoisonError, mpsc};
 
 use super::checkpoint::{Checkpoint, State};
+use super::options::RenderError;
 use super::pass::Pass;
 use super::worker::{Worker, is_available};
 use crate::clock::Stopwatch;
-use crate::film::FilmError;
 
 impl Pass<'_> {
     /// Adds the samples of all tiles to the film, or of those that were finished when the render was cancelled. Returns
     /// how many threads took part.
-    pub fn render(&self, shared: &Mutex<State>) -> Result<usize, FilmError> {
+    pub fn render(&self, shared: &Mutex<State>) -> Result<usize, RenderError> {
         let cancelled = || self.is_cancelled();
         let threads = self.options.threads.or_else(|| std::thread::available_parallelism().ok());
         let most = threads.map_or(1, NonZeroUsize::get).min(self.tiles.count());

@@ -2,10 +2,11 @@
 
 use glam::{UVec2, Vec2};
 
+use super::options::RenderError;
 use super::pass::Pass;
 use super::samples::Samples;
 use crate::bxdf::BxdfFlags;
-use crate::film::{Film, FilmError};
+use crate::film::Film;
 use crate::image::Window;
 use crate::integrator::{Counters, Wave};
 use crate::sampling::SampleId;
@@ -32,7 +33,7 @@ impl<'a> Worker<'a> {
     pub fn new(
         pass: &'a Pass<'a>,
         cancelled: &'a (dyn Fn() -> bool + Sync),
-    ) -> Result<Self, FilmError> {
+    ) -> Result<Self, RenderError> {
         let film = pass.view.film();
         let size = film.window().size().min(UVec2::splat(pass.options.tile_size.max(1)));
         let largest = Window { min: UVec2::ZERO, max: size };
@@ -40,7 +41,7 @@ impl<'a> Worker<'a> {
         let shadow_rays = pass.estimator.shadow_rays();
         let bytes = Wave::bytes(WAVE, shadow_rays);
         if !is_available(bytes) {
-            return Err(FilmError::TooLarge(size.x, size.y, (bytes >> 20) as u64));
+            return Err(RenderError::OutOfMemory(bytes as u64));
         }
         let wave = Wave::with_capacity(WAVE, shadow_rays, cancelled);
         let rho_choices = std::array::from_fn(|i| (i as f32 * 0.754_877_7).fract());

@@ -20,13 +20,26 @@ pub fn lines(document: &Document, scene: &Scene) -> Vec<String> {
 /// A line for each value that is not a table, in the order of the document.
 fn push_values(name: &str, node: &Node, lines: &mut Vec<String>) {
     let Value::Table(entries) = &node.value else {
-        lines.push(format!("{name} = {}", node.value));
+        lines.push(format!("{name} = {}", plain(&node.value)));
         return;
     };
     for entry in entries {
         let key = entry.key.escape_debug();
         let name = if name.is_empty() { key.to_string() } else { format!("{name}.{key}") };
         push_values(&name, &entry.node, lines);
+    }
+}
+
+/// The value with its numbers in one notation, whether they were written as 40 or 40.0.
+fn plain(value: &Value) -> Value {
+    match value {
+        Value::Number(text) if text.parse::<i128>().is_err() => {
+            Value::Number(text.parse().map_or(text.clone(), |number: f64| number.to_string()))
+        }
+        Value::Array(values) => Value::Array(
+            values.iter().map(|node| Node { mark: node.mark, value: plain(&node.value) }).collect(),
+        ),
+        _ => value.clone(),
     }
 }
 

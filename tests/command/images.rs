@@ -132,6 +132,21 @@ fn pipes_and_devices_are_refused() {
     folder.fails("compare no.exr no.exr", missing);
 }
 
+/// A header of 60,000,000 columns, which the decoder would allow 8 bytes each for anything else in the file. Seen to fail with
+/// the size asked after the decoder's own reading.
+#[test]
+fn a_wide_header_is_refused_first() {
+    let folder = Folder::new("wide");
+    let mut head = b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR".to_vec();
+    head.extend(60_000_000_u32.to_be_bytes());
+    head.extend([0, 0, 0, 1, 1, 0, 0, 0, 0]);
+    std::fs::write(folder.0.join("w.png"), head).unwrap();
+    folder.fails(
+        "compare w.png w.png --max-image-mb 1",
+        "cannot read `w.png`: 60000000 x 1 pixels take 4349 MiB of memory, above the limit of 1 MiB; raise it with --max-image-mb",
+    );
+}
+
 /// Two images that can be read, and not compared in the memory that is left. Seen to abort without the check.
 #[cfg(target_os = "linux")]
 #[test]

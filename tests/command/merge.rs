@@ -73,12 +73,18 @@ fn parts_that_do_not_fit_are_refused() {
     refused("12.exr 12.exr", "`12.exr` and `12.exr` both have sample 0: leave one out");
     refused(
         "12.exr fov.exr",
-        "`fov.exr` is not of the render that `12.exr` is of: camera.fov is 50 there and left out here",
+        "the parts are of different renders: camera.fov is 50 in `fov.exr` and left out in `12.exr`",
     );
     refused(
         "12.exr whole.exr",
         "cannot read `whole.exr`: it is not a complete part of a render: `lobe render --shard K/N` writes those",
     );
+    let whole = fs::read(folder.0.join("13.exr")).unwrap();
+    fs::write(folder.0.join("half.exr"), &whole[..whole.len() / 2]).unwrap();
+    let said = folder.run("merge half.exr 23.exr 33.exr -o m.exr");
+    assert_eq!(said.status.code(), Some(1));
+    let said = String::from_utf8(said.stderr).unwrap();
+    assert!(said.starts_with("error: cannot read `half.exr`: it is incomplete: "), "{said}");
     folder.fails(
         "merge 13.exr 23.exr 33.exr -o 13.exr",
         "cannot write `13.exr`: it is read; give another name",

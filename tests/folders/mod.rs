@@ -15,7 +15,8 @@ pub fn of_this_run() -> &'static Path {
         let door = File::create(all.join("lock")).unwrap();
         door.lock().unwrap();
         remove_dead_runs(&all);
-        let folder = all.join(std::process::id().to_string());
+        let name = |number: u32| all.join(format!("{}-{number}", std::process::id()));
+        let folder = (0..).map(name).find(|folder| !folder.exists()).unwrap();
         let lock = File::create(folder.with_extension("lock")).unwrap();
         lock.lock().unwrap();
         fs::create_dir(&folder).unwrap();
@@ -32,8 +33,9 @@ fn remove_dead_runs(all: &Path) {
         }
         if File::open(&path).unwrap().try_lock().is_ok() {
             // A folder in which a test has taken away its right to write stays.
-            let _ = fs::remove_dir_all(path.with_extension(""));
-            let _ = fs::remove_file(&path);
+            if fs::remove_dir_all(path.with_extension("")).is_ok() {
+                let _ = fs::remove_file(&path);
+            }
         }
     }
 }

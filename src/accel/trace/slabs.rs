@@ -10,8 +10,8 @@ use crate::geometry::float::gamma;
 /// A ray prepared for boxes.
 ///
 /// The triangle test and the distances to planes are rounded, so a ray may hit a triangle whose box it just misses.
-/// Therefore every box is padded by a bound on both errors, and no hit is lost. The padding is added to the ray's origin: once for the planes where it
-/// enters boxes, once for those where it leaves.
+/// Therefore every box is padded by a bound on both errors, and no hit is lost. The padding is added to the ray's
+/// origin: once for the planes where it enters boxes, once for those where it leaves.
 pub struct Slabs<L> {
     origin_near: [L; 3],
     origin_far: [L; 3],
@@ -29,15 +29,16 @@ pub struct Slabs<L> {
     pub flip_near_first: u32,
 }
 
-/// Factor by which the end of a ray is enlarged, for the rounding of t itself (Ize 2013).
-const TOLERANCE: f32 = 1.0 + 2.0 * gamma(3);
+/// Factor by which a ray's range is enlarged at both ends, for the rounding of the t that the triangle test tells: two
+/// sums of three products, a quotient and a factor.
+const TOLERANCE: f32 = 1.0 + 2.0 * gamma(10);
 
 impl<L: Lanes> Slabs<L> {
     #[inline(always)]
     pub fn new(ray: &Ray, largest_coordinate: f32) -> Self {
         // In units of half an epsilon, for numbers up to `reach`: a corner that is moved to the ray's origin and sheared is
         // off by up to 6 (two differences, quotient, product, sum); a plane by up to 4 (padded origin, difference, inverse,
-        // product). 5 epsilon in all, and a sixth for what is smaller than these.
+        // product). 5 epsilon in all, and a sixth for products of errors.
         let reach = largest_coordinate + ray.o.abs().max_element();
         let padding = Vec3A::splat(6.0 * f32::EPSILON * reach).copysign(ray.d.into());
         let o = Vec3A::from(ray.o);
@@ -51,7 +52,7 @@ impl<L: Lanes> Slabs<L> {
             inverse: splat3(inverse.to_array()),
             near: [0, 1, 2].map(|axis| axis + 3 * is_negative[axis]),
             far: [0, 1, 2].map(|axis| axis + 3 - 3 * is_negative[axis]),
-            t_min: L::splat(ray.t_min),
+            t_min: L::splat(ray.t_min / TOLERANCE),
             t_max: L::splat(ray.t_max * TOLERANCE),
             end: ray.t_max * TOLERANCE,
             // Two slots share an octant, hence the shift.

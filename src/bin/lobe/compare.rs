@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use lobe::image::{Image, check_writable, write_file};
+use lobe::image::{Image, check_writable, write_files};
 use lobe::metrics::{CompareError, ErrorMap, Errors, Exposures, Viewing, ZTest, z_test};
 
 use crate::images::MemoryArgument;
@@ -158,11 +158,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     if let Some(prefix) = &arguments.maps {
         let absolute = ErrorMap::absolute(&image, &reference)?;
         let signed = ErrorMap::signed(&image, &reference)?;
-        for (name, map) in MAPS.iter().zip([absolute, signed, seen]) {
-            let path = map_path(prefix, name);
-            write_file(&path, &map.png())?;
-            summary.add("wrote", path.display());
-        }
+        let paths = MAPS.map(|name| map_path(prefix, name));
+        let maps = [absolute, signed, seen].map(|map| map.png());
+        let files: Vec<_> =
+            paths.iter().zip(&maps).map(|(path, map)| (&**path, &map[..])).collect();
+        write_files(&files)?;
+        paths.iter().for_each(|path| summary.add("wrote", path.display()));
     }
     summary.print()?;
     for &(metric, limit) in &arguments.fail_above {

@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
-/// The first difference between two renders, in words. Both are lines `key = value`.
-pub fn difference(here: &str, there: &str) -> Option<String> {
+/// The first difference between two renders, in words. Both are lines `key = value`; `places` is what to call them.
+pub fn difference(here: &str, there: &str, places: [&str; 2]) -> Option<String> {
+    let [own, other] = places;
     if here == there {
         return None;
     }
@@ -11,17 +12,19 @@ pub fn difference(here: &str, there: &str) -> Option<String> {
         line.split_once(" = ").unwrap_or((line, ""))
     }
     let values: HashMap<_, _> = there.lines().map(parts).collect();
-    let own: HashMap<_, _> = here.lines().map(parts).collect();
+    let ours: HashMap<_, _> = here.lines().map(parts).collect();
     for (key, value) in here.lines().map(parts) {
         match values.get(key) {
-            Some(other) if *other == value => {}
-            Some(other) => return Some(format!("{key} is {other} there and {value} here")),
-            None => return Some(format!("{key} is {value} here and left out there")),
+            Some(found) if *found == value => {}
+            Some(found) => {
+                return Some(format!("{key} is {found} {other} and {value} {own}"));
+            }
+            None => return Some(format!("{key} is {value} {own} and left out {other}")),
         }
     }
-    let more = there.lines().map(parts).find(|(key, _)| !own.contains_key(key));
+    let more = there.lines().map(parts).find(|(key, _)| !ours.contains_key(key));
     Some(match more {
-        Some((key, value)) => format!("{key} is {value} there and left out here"),
+        Some((key, value)) => format!("{key} is {value} {other} and left out {own}"),
         None => "its values are in another order".to_owned(),
     })
 }

@@ -1,10 +1,11 @@
 //! `lobe merge`: adds up the parts of a render.
 
 use std::error::Error;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use lobe::film::Film;
+use lobe::glam::UVec2;
 use lobe::image::{Display, Image, ImageFile, Metadata, PartMetadata};
 use lobe::params::Choice;
 use lobe::params::Shown;
@@ -44,8 +45,8 @@ pub struct Arguments {
 
 /// A part whose header was read.
 struct Part<'a> {
-    path: &'a PathBuf,
-    file: ImageFile,
+    path: &'a Path,
+    size: UVec2,
     metadata: Metadata,
     part: PartMetadata,
 }
@@ -54,22 +55,28 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let outputs = Output::all(&arguments.output, "".as_ref(), &[])?;
     Output::check_own(&outputs, &arguments.parts)?;
     let limit = arguments.max_image_mb.saturating_mul(1 << 20);
-    let open = |path| {
+    // One file is open at a time: there may be thousands.
+    let header = |path: &'_ PathBuf| {
         let file = ImageFile::open(path, limit)?;
         let metadata = file.part()?;
         let part = metadata.part.clone().unwrap_or_default();
-        Ok::<_, Box<dyn Error>>(Part { path, file, metadata, part })
+        Ok::<_, Box<dyn Error>>((file.size(), metadata, part))
     };
-    let mut parts: Vec<Part> = arguments.parts.iter().map(open).collect::<Result<_, _>>()?;
+    let mut parts = Vec::new();
+    for path in &arguments.parts {
+        let (size, metadata, part) = header(path)?;
+        parts.push(Part { path, size, metadata, part });
+    }
     parts.sort_by_key(|part| part.part.samples.start);
     check(&parts)?;
 
     let (mut film, mut non_finite) = (None, 0);
-    for Part { path, file, part, .. } in &parts {
-        let (picture, _) = file.decode_part()?;
+    for Part { path, part, .. } in &parts {
+        let (picture, _) = ImageFile::open(path, limit)?.decode_part()?;
         let damaged =
             || format!("`{}` lacks what its film kept: render it again", Shown::path(path));
-        let of_part = Film::from_planes(picture.resolution, picture.window, &picture.planes)?;
+        let most = part.samples.end - part.samples.start;
+        let of_part = Film::from_planes(picture.resolution, picture.window, &picture.planes, most)?;
         let of_part = of_part.ok_or_else(damaged)?;
         non_finite += part.non_finite;
         let all: &mut Film = match &mut film {
@@ -109,17 +116,18 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
 /// Checks that parts, which are sorted, are of one render, and that each sample is in one of them.
 fn check(parts: &[Part]) -> Result<(), Box<dyn Error>> {
     let (first, mut end) = (&parts[0], 0);
-    for (index, Part { path, file, part, .. }) in parts.iter().enumerate() {
-        if let Some(difference) = difference(&first.part.identity, &part.identity) {
-            let (path, first) = (Shown::path(path), Shown::path(&first.path));
-            let what = "is not of the render that";
-            return Err(format!("`{path}` {what} `{first}` is of: {difference}").into());
+    for (index, Part { path, size, part, .. }) in parts.iter().enumerate() {
+        let places = [first.path, path].map(|path| format!("in `{}`", Shown::path(path)));
+        let [in_first, in_this] = places.each_ref().map(String::as_str);
+        let (one, other) = (&first.part.identity, &part.identity);
+        if let Some(difference) = difference(one, other, [in_first, in_this]) {
+            return Err(format!("the parts are of different renders: {difference}").into());
         }
-        if file.size() != first.file.size() || part.all_samples != first.part.all_samples {
+        if *size != first.size || part.all_samples != first.part.all_samples {
             return Err(format!("`{}` is damaged: render it again", Shown::path(path)).into());
         }
         if part.samples.start < end {
-            let (a, b) = (Shown::path(&parts[index - 1].path), Shown::path(path));
+            let (a, b) = (Shown::path(parts[index - 1].path), Shown::path(path));
             let sample = part.samples.start;
             return Err(format!("`{a}` and `{b}` both have sample {sample}: leave one out").into());
         }

@@ -1,8 +1,8 @@
 //! [`State`]: a render on disk, from which `--resume` goes on.
 
 use std::error::Error;
-use std::fs;
-use std::io::{self, BufWriter, Write};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use lobe::image::{WriteError, check_writable, write_file_with};
@@ -33,7 +33,7 @@ impl State {
     /// The bytes of the checkpoint; `None` if there is no file.
     pub fn load(&self) -> Result<Option<Vec<u8>>, Box<dyn Error>> {
         let path = Shown::path(&self.path);
-        let mut bytes = match fs::read(&self.path) {
+        let mut bytes = match read(&self.path) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(format!("cannot read `{path}`: {error}").into()),
@@ -44,7 +44,7 @@ impl State {
                 format!("`{path}` is not the state of a render, or damaged: {advice}").into()
             );
         };
-        if let Some(difference) = difference(&self.identity, head) {
+        if let Some(difference) = difference(&self.identity, head, ["here", "there"]) {
             let advice = "render with the same settings, or remove the file to start again";
             return Err(format!("`{path}` is of another render: {difference}; {advice}").into());
         }
@@ -69,6 +69,17 @@ impl State {
     pub fn remove(&self) {
         let _ = fs::remove_file(&self.path);
     }
+}
+
+/// The contents of a file that begins with [`MAGIC`]; the beginning alone of any other.
+fn read(path: &Path) -> io::Result<Vec<u8>> {
+    let mut file = File::open(path)?;
+    let (mut bytes, length) = (vec![0; MAGIC.len()], file.metadata()?.len());
+    if file.read_exact(&mut bytes).is_ok() && bytes == MAGIC.as_bytes() {
+        bytes.try_reserve_exact(usize::try_from(length).unwrap_or(usize::MAX))?;
+        file.read_to_end(&mut bytes)?;
+    }
+    Ok(bytes)
 }
 
 /// Bytes of the checksum.

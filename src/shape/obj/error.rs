@@ -34,7 +34,7 @@ pub enum ObjError {
         /// The error of the operating system.
         source: io::Error,
     },
-    /// The file has no `f` line.
+    /// The file has no face of at least three corners.
     #[error(
         "{}: has no faces: expected at least one line such as \"f 1 2 3\", found {}",
         Shown::line(name),

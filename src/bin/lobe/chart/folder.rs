@@ -5,7 +5,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use lobe::image::{sweep_temporaries, write_file};
+use lobe::image::{is_temporary, sweep_temporaries, write_file};
 use lobe::params::Shown;
 
 /// The file that a chart locks while it runs. The system ends the lock with the process, however that ends.
@@ -87,7 +87,7 @@ fn anything_in(folder: &Path) -> io::Result<Option<String>> {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder)? {
         let name = entry?.file_name().to_string_lossy().into_owned();
-        if name != LOCK {
+        if name != LOCK && !is_temporary(&name) {
             names.push(name);
         }
     }

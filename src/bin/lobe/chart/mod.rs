@@ -159,6 +159,9 @@ fn decode_added(
         if file.size() != size {
             return Err(told(path, CompareError::Size(file.size(), size)).into());
         }
+        if file.encoding() != Encoding::Linear {
+            return Err(told(path, CompareError::Encoding).into());
+        }
     }
     let mut images = Vec::new();
     for (Added { path, .. }, file) in arguments.add.iter().zip(files) {

@@ -21,13 +21,13 @@ const EXAMPLES: &str = r#"Examples:
 A PNG is for viewing. An EXR contains linear radiance, its variance, the number of samples, and
 normal, depth and albedo of the first hits; only with one is the error of the picture printed.
 
-Ctrl-C ends a render: what there is of the picture is written, and the exit code is 130. Ctrl-C
+Ctrl-C, SIGTERM or a closed terminal ends a render: what there is of the picture is written, and the exit code is 130. Ctrl-C
 again ends it at once.
 
 With --resume, a file NAME.state beside the picture has all that the render needs to go on. It
 is replaced, and so is the picture, every --save-every. The same command goes on from it, with
 any number of threads, and gives the same picture as if it had never stopped. The file is
-removed when the render is complete."#;
+removed when all samples are taken or --time is over."#;
 
 /// Renders a scene file to PNG and EXR
 #[derive(Args)]
@@ -48,7 +48,7 @@ pub struct Arguments {
     pub spp: Option<u32>,
 
     /// Time limit, with what a resumed render took before. Renders in passes, each as long as all before it together,
-    /// while the next one is expected to end in time. Sobol samples ("sobol") are best for this, since they are well distributed after every pass
+    /// and shorter ones at the end, while the next one is expected to end in time. Sobol samples ("sobol") are best for this, since they are well distributed after every pass
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub time: Option<Duration>,
 
@@ -78,4 +78,14 @@ pub struct Arguments {
     /// Prints nothing but errors
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+impl Arguments {
+    /// How many samples a pixel gets, in words.
+    pub fn samples(&self, spp: u32) -> String {
+        match (self.time, self.spp) {
+            (Some(_), None) => "as many as time allows".to_owned(),
+            _ => spp.to_string(),
+        }
+    }
 }

@@ -52,7 +52,7 @@ impl<'a> Job<'a> {
         }
         let layers = !arguments.no_layers && outputs.iter().any(|o| o.format == Format::Exr);
         let identity = match arguments.resume || arguments.shard.is_some() {
-            true => identity(&loaded, spp, layers),
+            true => identity(&loaded, arguments.samples(spp), layers),
             false => String::new(),
         };
         // A state is of one part, too.
@@ -93,6 +93,9 @@ impl<'a> Job<'a> {
         let saved = self.state.as_ref().map_or(Ok(()), |state| state.save(checkpoint));
         let written = saved.map_err(Into::into).and_then(|()| {
             let rendered = checkpoint.rendered();
+            if self.is_empty(&rendered) {
+                return Ok(());
+            }
             let display = self.loaded.view.film().display;
             Output::write_all(&self.outputs, &rendered.picture, display, &self.metadata(&rendered))
         });
@@ -100,12 +103,27 @@ impl<'a> Job<'a> {
         *unsaved = written.err().map(|error| error.to_string());
     }
 
-    /// Writes the pictures. The state of a complete render goes.
-    pub fn finish(&self, rendered: &Rendered) -> Result<(), Box<dyn Error>> {
+    /// Whether there is nothing in the picture that could be worth more than what the outputs hold.
+    pub fn is_empty(&self, rendered: &Rendered) -> bool {
+        let pixels = self.loaded.view.film().window().area() as u64;
+        !rendered.complete && rendered.empty_pixels == pixels
+    }
+
+    /// Whether the same command goes on from what is on disk.
+    pub fn can_go_on(&self) -> bool {
+        self.state.is_some() && self.unsaved().is_none()
+    }
+
+    fn unsaved(&self) -> Option<String> {
+        self.unsaved.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Writes the pictures. The state of a render that was not interrupted goes.
+    pub fn finish(&self, rendered: &Rendered, is_over: bool) -> Result<(), Box<dyn Error>> {
         let display = self.loaded.view.film().display;
         let metadata = self.metadata(rendered);
         Output::write_or_keep(&self.outputs, &rendered.picture, display, &metadata)?;
-        if rendered.complete {
+        if is_over {
             self.state.iter().for_each(State::remove);
         }
         Ok(())
@@ -113,8 +131,7 @@ impl<'a> Job<'a> {
 
     pub fn summary(&self, rendered: &Rendered) -> Summary {
         let mut summary = summary::of(&self.loaded, rendered, &self.arguments.scene.path);
-        let unsaved = self.unsaved.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(error) = &*unsaved {
+        if let Some(error) = self.unsaved() {
             summary.add("warning", format!("not saved while rendering: {error}"));
         }
         self.outputs.iter().for_each(|output| summary.add("wrote", output.path.display()));
@@ -136,13 +153,13 @@ fn outputs(arguments: &Arguments) -> Result<Vec<Output>, Box<dyn Error>> {
 }
 
 /// The scene, and the arguments that change which samples are taken or what is kept.
-fn identity(loaded: &LoadedScene, spp: u32, layers: bool) -> String {
+fn identity(loaded: &LoadedScene, samples: String, layers: bool) -> String {
     let mut lines = loaded.identity();
     let is_replaced =
         |line: &str| ["sampler.seed = ", "sampler.spp = "].iter().any(|key| line.starts_with(key));
     lines.retain(|line| !is_replaced(line));
     lines.push(format!("seed = {}", loaded.settings.sampler.seed));
-    lines.push(format!("samples per pixel = {spp}"));
-    lines.push(format!("layers = {layers}"));
+    lines.push(format!("samples per pixel = {samples}"));
+    lines.push(format!("layers of an EXR file = {layers}"));
     lines.join("\n")
 }

@@ -19,13 +19,14 @@ pub use arguments::Arguments;
 use job::Job;
 
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
+    // Before the scene is loaded: whatever the moment, the exit code is the same.
+    let interrupted = interrupt::listen()?;
     let job = Job::prepare(arguments)?;
     let stored = job.stored()?;
     let window = job.loaded.view.film().window();
     let bar = (!arguments.quiet).then(|| Bar::new(window.area() as u64));
     let progress = |progress: Progress| bar.iter().for_each(|bar| bar.update(progress));
     let save = Saving { every: arguments.save_every.as_secs_f64(), to: &|state| job.save(state) };
-    let interrupted = interrupt::listen()?;
     let options = RenderOptions {
         threads: arguments.threads.given(),
         layers: job.layers,
@@ -42,13 +43,15 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
     bar.iter().for_each(Bar::clear);
     let rendered = rendered?;
     let was_interrupted = !rendered.complete && interrupted.load(Ordering::Relaxed);
-    if !rendered.complete && rendered.empty_pixels == window.area() as u64 {
-        let why = if was_interrupted { "interrupted" } else { "time was over" };
-        let what = format!("{why} before any part of the picture was done: nothing is written");
-        return Err(what.into());
+    if job.is_empty(&rendered) {
+        let what = "before any part of the picture was done: no picture is written";
+        if was_interrupted {
+            return Ok(end_early(&format!("interrupted {what}"), &job));
+        }
+        return Err(format!("time was over {what}; allow more with --time").into());
     }
     let start = Instant::now();
-    job.finish(&rendered)?;
+    job.finish(&rendered, !was_interrupted)?;
     if !arguments.quiet {
         let mut summary = job.summary(&rendered);
         summary.add("write", format!("{:.3} s", start.elapsed().as_secs_f64()));
@@ -58,14 +61,17 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
         return Ok(ExitCode::SUCCESS);
     }
     let samples = rendered.samples_per_pixel;
-    let go_on = match arguments.resume {
+    let what = format!("interrupted after {samples} samples per pixel; what there is was written");
+    Ok(end_early(&what, &job))
+}
+
+/// Says what was interrupted, and whether it goes on.
+fn end_early(what: &str, job: &Job) -> ExitCode {
+    let go_on = match job.can_go_on() {
         true => "the same command goes on",
-        false => "with --resume, it could go on",
+        false => "it cannot go on: --resume keeps what that needs",
     };
     // If stderr is closed, the exit code still tells.
-    let _ = writeln!(
-        std::io::stderr(),
-        "interrupted after {samples} samples per pixel; what there is was written; {go_on}"
-    );
-    Ok(interrupt::exit_code())
+    let _ = writeln!(std::io::stderr(), "{what}; {go_on}");
+    interrupt::exit_code()
 }
