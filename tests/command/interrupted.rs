@@ -64,7 +64,10 @@ fn the_first_signal_writes_what_there_is() {
         signal(&child, name);
         let (status, said) = end(child);
         assert_eq!(status.code(), Some(130), "{said}");
-        assert!(said.starts_with("interrupted after ") && said.ends_with("goes on\n"), "{said}");
+        assert!(
+            said.starts_with("interrupted ") && said.ends_with("; the same command goes on\n"),
+            "{said}"
+        );
         assert_eq!(folder.files(), ["s.exr", "s.png", "s.state", "s.toml", "wall.obj"]);
         // It goes on, and its state with it.
         let before = fs::read(folder.0.join("s.state")).unwrap();
@@ -132,6 +135,30 @@ fn a_killed_part_goes_on() {
     end(child);
     folder.prints(&format!("{part} -o a.exr --quiet"));
     assert!(exr(&folder, "a.exr") == exr(&folder, "whole.exr"));
+    // Once complete it is left as it is, but not for another part or another scene.
+    let bytes = fs::read(folder.0.join("a.exr")).unwrap();
+    let said = folder.prints(&format!("{part} -o a.exr"));
+    assert_eq!(said, "complete  a.exr has all samples of the part\n");
+    assert!(fs::read(folder.0.join("a.exr")).unwrap() == bytes);
+    folder.prints(&format!("{part} -o a.exr --set camera.fov=50 --quiet"));
+    assert!(fs::read(folder.0.join("a.exr")).unwrap() != bytes);
+}
+
+/// Where the state cannot be written, nothing promises that the render goes on. Seen to fail with "the same command goes on".
+#[test]
+fn a_state_that_was_not_saved_is_not_promised() {
+    let folder = Folder::new("unsaved");
+    let script = "trap '' XFSZ; ulimit -f 3; exec \"$0\" render s.toml --spp 100000000 -o s.png --resume --save-every 0.01 --quiet";
+    let mut command = std::process::Command::new("sh");
+    command.current_dir(&folder.0).args(["-c", script, env!("CARGO_BIN_EXE_lobe")]);
+    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(500));
+    signal(&child, "-INT");
+    let (status, said) = end(child);
+    assert_eq!(status.code(), Some(130), "{said}");
+    let why = "it cannot go on: cannot write `s.state`: File too large (os error 27); free some space or choose another disk";
+    assert!(said.ends_with(&format!("; {why}\n")), "{said}");
+    assert_eq!(folder.files(), ["s.png", "s.toml", "wall.obj"]);
 }
 
 /// Killed at random moments and resumed: the same bytes as without. `kills` in all, over as many renders as that takes.

@@ -27,7 +27,8 @@ again ends it at once.
 With --resume, a file NAME.state beside the picture has all that the render needs to go on. It
 is replaced, and so is the picture, every --save-every. The same command goes on from it, with
 any number of threads, and gives the same picture as if it had never stopped. The file is
-removed when all samples are taken or --time is over."#;
+removed when all samples are taken or --time is over. A part (--shard) that is complete
+already is left as it is."#;
 
 /// Renders a scene file to PNG and EXR
 #[derive(Args)]

@@ -1,9 +1,10 @@
 //! [`Job`]: a render that was asked for, with its outputs and its state on disk.
 
 use std::error::Error;
+use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-use lobe::image::{Metadata, PartMetadata, Picture};
+use lobe::image::{Image, ImageFile, Metadata, PartMetadata, Picture};
 use lobe::render::{Checkpoint, Part, Rendered};
 use lobe::scene_file::LoadedScene;
 
@@ -109,9 +110,27 @@ impl<'a> Job<'a> {
         !rendered.complete && rendered.empty_pixels == pixels
     }
 
-    /// Whether the same command goes on from what is on disk.
-    pub fn can_go_on(&self) -> bool {
-        self.state.is_some() && self.unsaved().is_none()
+    /// Whether the same command goes on from what is on disk, in words.
+    pub fn going_on(&self) -> String {
+        match (&self.state, self.unsaved()) {
+            (None, _) => "it cannot go on: --resume keeps what that needs".to_owned(),
+            (Some(_), Some(error)) => format!("it cannot go on: {error}"),
+            (Some(_), None) => "the same command goes on".to_owned(),
+        }
+    }
+
+    /// The file with all samples of this part, if there is one already: for commands that are repeated.
+    pub fn complete_part(&self) -> Option<&Path> {
+        let part = self.arguments.shard.filter(|_| self.arguments.resume)?;
+        let is_it = |output: &&Output| {
+            let file = ImageFile::open(&output.path, Image::DEFAULT_LIMIT).ok();
+            let found = file.and_then(|file| file.part().ok()?.part);
+            found.is_some_and(|found| {
+                found.samples == part.samples(self.spp) && found.identity == self.identity
+            })
+        };
+        let mut exr = self.outputs.iter().filter(|output| output.format == Format::Exr);
+        exr.find(is_it).map(|output| &*output.path)
     }
 
     fn unsaved(&self) -> Option<String> {

@@ -15,6 +15,7 @@ use lobe::{RenderOptions, render};
 
 use crate::interrupt;
 use crate::progress::Bar;
+use crate::summary::Summary;
 pub use arguments::Arguments;
 use job::Job;
 
@@ -23,6 +24,16 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
     let interrupted = interrupt::listen()?;
     let job = Job::prepare(arguments)?;
     let stored = job.stored()?;
+    if stored.is_none()
+        && let Some(path) = job.complete_part()
+    {
+        if !arguments.quiet {
+            let mut summary = Summary::default();
+            summary.add("complete", format!("{} has all samples of the part", path.display()));
+            summary.print()?;
+        }
+        return Ok(ExitCode::SUCCESS);
+    }
     let window = job.loaded.view.film().window();
     let bar = (!arguments.quiet).then(|| Bar::new(window.area() as u64));
     let progress = |progress: Progress| bar.iter().for_each(|bar| bar.update(progress));
@@ -61,16 +72,17 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
         return Ok(ExitCode::SUCCESS);
     }
     let samples = rendered.samples_per_pixel;
-    let what = format!("interrupted after {samples} samples per pixel; what there is was written");
+    let when = match samples {
+        0 => "in the first pass".to_owned(),
+        _ => format!("after {samples} samples per pixel"),
+    };
+    let what = format!("interrupted {when}; what there is was written");
     Ok(end_early(&what, &job))
 }
 
 /// Says what was interrupted, and whether it goes on.
 fn end_early(what: &str, job: &Job) -> ExitCode {
-    let go_on = match job.can_go_on() {
-        true => "the same command goes on",
-        false => "it cannot go on: --resume keeps what that needs",
-    };
+    let go_on = job.going_on();
     // If stderr is closed, the exit code still tells.
     let _ = writeln!(std::io::stderr(), "{what}; {go_on}");
     interrupt::exit_code()
