@@ -63,7 +63,7 @@ impl Output {
         let real = |path: &Path| fs::canonicalize(path).ok();
         let read: Vec<_> = read.iter().filter_map(|path| real(path)).collect();
         for (index, Self { path, .. }) in outputs.iter().enumerate() {
-            let shown = Shown::path(&path);
+            let shown = Shown::path(path);
             if real(path).is_some_and(|path| read.contains(&path)) {
                 let what = format!("cannot write `{shown}`: it is read; give another name");
                 return Err(what.into());
