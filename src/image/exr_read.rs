@@ -8,13 +8,13 @@ use std::io::{BufRead, Read, Seek};
 use ::exr::meta::MetaData;
 use ::exr::meta::attribute::SampleType;
 use ::exr::meta::header::Header;
-use ::exr::prelude::{AttributeValue, Vec2, f16};
+use ::exr::prelude::{AttributeValue, f16};
 use glam::UVec2;
 
 use super::exr::DEGREES_OF_FREEDOM;
 use super::exr_blocks::Blocks;
 use super::memory::{PIXEL, Refusal, area, check, filled, reserve};
-use super::{Encoding, Image, Metadata, ParsePartError, PartMetadata, Picture, Plane, Window};
+use super::{Encoding, Image};
 use crate::spectrum::Spectrum;
 
 /// Most memory that a header takes, for each of its bytes: measured with the smallest attributes, whose hash table has just
@@ -50,20 +50,20 @@ impl Channel {
 }
 
 /// What a file's headers say.
-struct Layout {
+pub(super) struct Layout {
     meta: MetaData,
     /// Index of the first part with colours.
     part: usize,
     colors: [Channel; 3],
     variance: Option<[Channel; 3]>,
-    size: UVec2,
+    pub size: UVec2,
     /// Bytes of memory that are taken in any case.
-    base: u128,
+    pub base: u128,
 }
 
 impl Layout {
     /// Reads the headers, and moves `source` behind them.
-    fn read(source: &mut impl Read, length: u64, limit: u64) -> Result<Self, Refusal> {
+    pub fn read(source: &mut impl Read, length: u64, limit: u64) -> Result<Self, Refusal> {
         let longest = limit / HEADER;
         let mut taken = source.take(longest);
         let meta = MetaData::read_from_buffered(&mut taken, true)
@@ -97,6 +97,11 @@ impl Layout {
         check(size, base, limit)?;
         Ok(Self { part, colors, variance, size, base, meta })
     }
+
+    pub fn attribute(&self, name: &str) -> Option<&AttributeValue> {
+        let other = &self.meta.headers[self.part].own_attributes.other;
+        other.iter().find(|(known, _)| *known == name).map(|(_, value)| value)
+    }
 }
 
 /// Columns and rows.
@@ -108,137 +113,89 @@ pub(super) fn size(
     Ok(Layout::read(&mut source, length, limit)?.size)
 }
 
+/// A whole file in memory.
+pub(super) struct Contents {
+    bytes: Vec<u8>,
+    pub layout: Layout,
+    /// Bytes of its headers.
+    behind: usize,
+    limit: u64,
+}
+
+impl Contents {
+    pub fn read(source: impl BufRead + Seek, length: u64, limit: u64) -> Result<Self, Refusal> {
+        let mut bytes = reserve(length)?;
+        source.take(length).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
+        let mut rest = &bytes[..];
+        let layout = Layout::read(&mut rest, length, limit)?;
+        let behind = bytes.len() - rest.len();
+        let contents = Self { bytes, layout, behind, limit };
+        // Before anything is allocated for pixels that are not there.
+        contents.blocks()?;
+        Ok(contents)
+    }
+
+    fn blocks(&self) -> Result<Blocks<'_>, Refusal> {
+        let Self { bytes, layout, behind, .. } = self;
+        Blocks::find(&layout.meta, layout.part, bytes, *behind)
+    }
+
+    /// The header of the part with colours.
+    pub fn header(&self) -> &Header {
+        &self.layout.meta.headers[self.layout.part]
+    }
+
+    /// Decompresses all blocks, and hands over each of their rows: the number of its first pixel, how many it has, and the
+    /// bytes, channel by channel. `beside` are bytes of memory that the caller takes for the rows.
+    pub fn rows(
+        &self,
+        beside: u128,
+        mut row: impl FnMut(usize, usize, &[u8]),
+    ) -> Result<(), Refusal> {
+        let Self { layout, limit, .. } = self;
+        let base = layout.base + beside;
+        check(layout.size, base, *limit)?;
+        let blocks = self.blocks()?;
+        let bytes_per_pixel = blocks.header.channels.bytes_per_pixel;
+        for index in 0..blocks.count {
+            let Some(block) = blocks.get(index)? else { continue };
+            check(layout.size, base + blocks.memory(&block)?, *limit)?;
+            let block = blocks.decompress(block, &layout.meta)?;
+            let (corner, width) = (block.index.pixel_position, block.index.pixel_size.0);
+            for (y, bytes) in block.data.chunks_exact(bytes_per_pixel * width).enumerate() {
+                row((corner.1 + y) * layout.size.x as usize + corner.0, width, bytes);
+            }
+        }
+        Ok(())
+    }
+}
+
 /// Decodes the first part that has colours, and its variance.
 pub(super) fn decode(
     source: impl BufRead + Seek,
     length: u64,
     limit: u64,
 ) -> Result<Image, Refusal> {
-    let mut bytes = reserve(length)?;
-    source.take(length).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
-    let mut rest = &bytes[..];
-    let layout = Layout::read(&mut rest, length, limit)?;
+    let contents = Contents::read(source, length, limit)?;
+    let layout = &contents.layout;
     let size = layout.size;
-    let blocks = Blocks::find(&layout.meta, layout.part, &bytes, bytes.len() - rest.len())?;
-
     let mut pixels = filled(area(size), Spectrum::BLACK)?;
     let mut variance = match layout.variance {
         Some(_) => filled(area(size), Spectrum::BLACK)?,
         None => Vec::new(),
     };
-    let bytes_per_pixel = blocks.header.channels.bytes_per_pixel;
-    for index in 0..blocks.count {
-        let Some(block) = blocks.get(index)? else { continue };
-        check(size, layout.base + blocks.memory(&block)?, limit)?;
-        let block = blocks.decompress(block, &layout.meta)?;
-        let (corner, width) = (block.index.pixel_position, block.index.pixel_size.0);
-        for (y, row) in block.data.chunks_exact(bytes_per_pixel * width).enumerate() {
-            let start = (corner.1 + y) * size.x as usize + corner.0;
-            copy(&mut pixels[start..][..width], layout.colors, row);
-            if let Some(channels) = layout.variance {
-                copy(&mut variance[start..][..width], channels, row);
-            }
+    contents.rows(0, |start, width, row| {
+        copy(&mut pixels[start..][..width], layout.colors, row);
+        if let Some(channels) = layout.variance {
+            copy(&mut variance[start..][..width], channels, row);
         }
-    }
+    })?;
     let variance = layout.variance.map(|_| variance);
     let degrees_of_freedom = match layout.attribute(DEGREES_OF_FREEDOM) {
         Some(AttributeValue::I32(degrees)) => u32::try_from(*degrees).ok().filter(|&d| d > 0),
         _ => None,
     };
     Ok(Image { size, pixels, variance, degrees_of_freedom, encoding: Encoding::Linear })
-}
-
-/// Reads the metadata of a part of a render, from the header alone.
-pub(super) fn part_metadata(
-    mut source: impl BufRead + Seek,
-    length: u64,
-    limit: u64,
-) -> Result<Metadata, Refusal> {
-    Layout::read(&mut source, length, limit)?.part_metadata()
-}
-
-/// Decodes what the film of a part of a render kept. Colours and layers are left out, since the film gives them.
-pub(super) fn decode_part(
-    source: impl BufRead + Seek,
-    length: u64,
-    limit: u64,
-) -> Result<(Picture, Metadata), Refusal> {
-    let mut bytes = reserve(length)?;
-    source.take(length).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
-    let mut rest = &bytes[..];
-    let layout = Layout::read(&mut rest, length, limit)?;
-    let (size, metadata) = (layout.size, layout.part_metadata()?);
-    let blocks = Blocks::find(&layout.meta, layout.part, &bytes, bytes.len() - rest.len())?;
-
-    let header = blocks.header;
-    let of_film = header.channels.channels_with_byte_offset().filter(|(_, channel)| {
-        channel.sample_type == SampleType::U32 && channel.name.to_string().starts_with(FILM)
-    });
-    let of_film: Vec<_> = of_film.map(|(offset, channel)| (offset, &channel.name)).collect();
-    let base = layout.base + 4 * of_film.len() as u128 * u128::from(area(size));
-    check(size, base, limit)?;
-    let mut planes = Vec::new();
-    for (_, name) in &of_film {
-        planes.push(Plane { name: name.to_string(), values: filled(area(size), 0)? });
-    }
-    let bytes_per_pixel = header.channels.bytes_per_pixel;
-    for index in 0..blocks.count {
-        let Some(block) = blocks.get(index)? else { continue };
-        check(size, base + blocks.memory(&block)?, limit)?;
-        let block = blocks.decompress(block, &layout.meta)?;
-        let (corner, width) = (block.index.pixel_position, block.index.pixel_size.0);
-        for (y, row) in block.data.chunks_exact(bytes_per_pixel * width).enumerate() {
-            let start = (corner.1 + y) * size.x as usize + corner.0;
-            for (plane, (offset, _)) in planes.iter_mut().zip(&of_film) {
-                let words = row[offset * width..][..4 * width].as_chunks().0;
-                for (value, word) in plane.values[start..].iter_mut().zip(words) {
-                    *value = u32::from_ne_bytes(*word);
-                }
-            }
-        }
-    }
-    let corner = |Vec2(x, y)| Some(UVec2::new(u32::try_from(x).ok()?, u32::try_from(y).ok()?));
-    let min = corner(header.own_attributes.layer_position);
-    let whole = header.shared_attributes.display_window.size;
-    let resolution = UVec2::new(whole.0 as u32, whole.1 as u32);
-    let window = min.map(|min| Window { min, max: min.saturating_add(size) });
-    let window = window.filter(|window| window.max.cmple(resolution).all());
-    let window = window.ok_or("its window reaches beyond the image")?;
-    Ok((Picture { window, planes, ..Picture::new(resolution, Vec::new()) }, metadata))
-}
-
-/// How the names of channels begin that a film keeps.
-const FILM: &str = "film.";
-
-impl Layout {
-    fn attribute(&self, name: &str) -> Option<&AttributeValue> {
-        let other = &self.meta.headers[self.part].own_attributes.other;
-        other.iter().find(|(known, _)| *known == name).map(|(_, value)| value)
-    }
-
-    fn part_metadata(&self) -> Result<Metadata, Refusal> {
-        let text = |name: &str| match self.attribute(name) {
-            Some(AttributeValue::Text(text)) => {
-                Some(String::from_utf8_lossy(text.as_slice()).into_owned())
-            }
-            _ => None,
-        };
-        let part = text("part").ok_or(
-            "it is not a complete part of a render: `lobe render --shard K/N` writes those",
-        )?;
-        let part: PartMetadata = part.parse().map_err(|error: ParsePartError| error.to_string())?;
-        let seconds = match self.attribute("renderSeconds") {
-            Some(AttributeValue::F64(seconds)) => *seconds,
-            _ => 0.0,
-        };
-        Ok(Metadata {
-            scene: text("scene").unwrap_or_default(),
-            seed: text("seed").and_then(|seed| seed.parse().ok()).unwrap_or_default(),
-            samples_per_pixel: part.samples.end - part.samples.start,
-            seconds,
-            part: Some(part),
-        })
-    }
 }
 
 /// Reads three channels of a row of pixels.

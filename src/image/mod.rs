@@ -48,6 +48,8 @@ mod exr;
 #[cfg(feature = "exr")]
 mod exr_blocks;
 #[cfg(feature = "exr")]
+mod exr_part;
+#[cfg(feature = "exr")]
 mod exr_read;
 mod memory;
 mod metadata;

@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 
 use glam::UVec2;
 
-#[cfg(feature = "exr")]
-use super::exr_read;
 use super::memory::{Refusal, mebibytes};
 use super::{Encoding, Image, ReadError, pfm, png};
 #[cfg(feature = "exr")]
 use super::{Metadata, Picture};
+#[cfg(feature = "exr")]
+use super::{exr_part, exr_read};
 
 impl Image {
     /// The limit on the memory that [`Image::read`] may take: 4096 MiB, enough for 16384 x 8192 pixels of linear radiance.
@@ -145,7 +145,7 @@ impl ImageFile {
     /// # Errors
     /// If it is not a part of a render, and as [`Image::read`].
     pub fn part(&self) -> Result<Metadata, ReadError> {
-        self.read_part(exr_read::part_metadata)
+        self.read_part(exr_part::metadata)
     }
 
     /// A picture whose [`planes`](Picture::planes) hold what the film of the part kept, without colours, and how it was made.
@@ -153,7 +153,7 @@ impl ImageFile {
     /// # Errors
     /// As [`part`](Self::part).
     pub fn decode_part(&self) -> Result<(Picture, Metadata), ReadError> {
-        self.read_part(exr_read::decode_part)
+        self.read_part(exr_part::decode)
     }
 
     fn read_part<'a, T>(
