@@ -225,6 +225,7 @@ impl<'a> Bsdf<'a> {
     }
 
     /// Fraction of uniform incident light that is scattered along the world direction `wo`: see [`BxDF::rho_hd`].
+    #[inline]
     pub fn rho_hd(&self, wo: Vec3, uc: &[f32], u: &[Vec2], flags: BxdfFlags) -> Spectrum {
         let wo = self.frame.to_local(wo);
         if wo.z == 0.0 {
