@@ -58,7 +58,10 @@ fn checkpoints(settings: &RenderSettings, options: &RenderOptions) -> (Rendered,
         checkpoint.write(&mut bytes).unwrap();
         stored.lock().unwrap().push(bytes);
     };
-    let options = RenderOptions { save: Some(Saving { every: 0.0, to: &to }), ..*options };
+    let options = RenderOptions {
+        save: Some(Saving { every: Duration::ZERO, on_checkpoint: &to }),
+        ..*options
+    };
     let rendered = render(&scene(), &view(), settings, &options).unwrap();
     (rendered, stored.into_inner().unwrap())
 }
@@ -111,7 +114,7 @@ fn a_cancelled_render_is_stored() {
             threads: NonZeroUsize::new(1),
             cancel: Some(&cancel),
             progress: Some(&progress),
-            save: Some(Saving { every: f64::INFINITY, to: &to }),
+            save: Some(Saving { every: Duration::MAX, on_checkpoint: &to }),
             ..options()
         };
         let rendered = render(&scene(), &view(), &settings, &cancelled).unwrap();

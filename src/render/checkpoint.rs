@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 use std::ops::Range;
+use std::time::Duration;
 
 use super::rendered::{Progress, Rendered};
 use super::tiles::Tiles;
@@ -15,7 +16,7 @@ pub(super) struct State {
     pub counters: Counters,
     /// The samples that are asked for, counted across the sets of a pixel in turn.
     pub samples: Range<u32>,
-    /// Whether they are a part of the render's.
+    /// Whether the render has other samples, too, which another process takes.
     pub is_part: bool,
     pub sets: u32,
     pub tile_size: u32,
@@ -195,9 +196,9 @@ impl Checkpoint<'_> {
 /// When a render is stored, and by whom.
 #[derive(Clone, Copy)]
 pub struct Saving<'a> {
-    /// Seconds from one time to the next; at 0, after every tile.
-    pub every: f64,
+    /// From one time to the next; at zero, after every tile.
+    pub every: Duration,
     /// Called by the thread that finished a tile. Other threads wait to deliver theirs until it returns. It is called
     /// once more when a render ends early.
-    pub to: &'a (dyn Fn(&Checkpoint) + Sync),
+    pub on_checkpoint: &'a (dyn Fn(&Checkpoint) + Sync),
 }

@@ -150,7 +150,7 @@ pub fn render_with(
         if !state.is_whole()
             && let Some(saving) = options.save
         {
-            (saving.to)(&Checkpoint(&state));
+            (saving.on_checkpoint)(&Checkpoint(&state));
         }
         state.threads = state.threads.max(threads?);
         if !state.is_whole() {

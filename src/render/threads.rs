@@ -68,9 +68,9 @@ impl Pass<'_> {
                 progress(state.progress());
             }
             if let Some(saving) = self.options.save
-                && state.saved.seconds() >= saving.every
+                && state.saved.seconds() >= saving.every.as_secs_f64()
             {
-                (saving.to)(&Checkpoint(&state));
+                (saving.on_checkpoint)(&Checkpoint(&state));
                 state.saved = Stopwatch::start();
             }
         }

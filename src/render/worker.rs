@@ -49,8 +49,8 @@ impl<'a> Worker<'a> {
     }
 
     /// Renders the samples of the pass in a tile, wave by wave, and returns whether it took them all: once the render is
-    /// cancelled it stops, within a wave if that has a path that goes on. The samples of a pixel are added in the order of set and index, so
-    /// that its sum does not depend on how the image is cut.
+    /// cancelled it stops, before the next wave or at a wave's next reflection. The samples of a pixel are added in the
+    /// order of set and index, so that its sum does not depend on how the image is cut.
     pub fn render(&mut self, window: Window) -> bool {
         let Pass { scene, view, estimator, sampler, sets, ref samples, .. } = *self.pass;
         self.tile.reset(window);

@@ -10,8 +10,9 @@ use crate::geometry::float::gamma;
 /// A ray prepared for boxes.
 ///
 /// The triangle test and the distances to planes are rounded, so a ray may hit a triangle whose box it just misses.
-/// Therefore every box is padded by a bound on both errors, and no hit is lost. The padding is added to the ray's
-/// origin: once for the planes where it enters boxes, once for those where it leaves.
+/// Therefore every box is padded by a bound on both errors, and no hit is lost. (Of needles, the t that the triangle test
+/// tells may be off by more: where a range ends there, the box may be taken to be beyond.) The padding is added to the
+/// ray's origin: once for the planes where it enters boxes, once for those where it leaves.
 pub struct Slabs<L> {
     origin_near: [L; 3],
     origin_far: [L; 3],

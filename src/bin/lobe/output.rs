@@ -60,7 +60,12 @@ impl Output {
 
     /// Refuses outputs that are among the files `read`, or the same file twice.
     pub fn check_own(outputs: &[Self], read: &[PathBuf]) -> Result<(), Box<dyn Error>> {
-        let real = |path: &Path| fs::canonicalize(path).ok();
+        // Of a file that does not exist yet, by its folder.
+        let real = |path: &Path| {
+            let folder = path.parent().filter(|folder| *folder != Path::new(""));
+            let folder = fs::canonicalize(folder.unwrap_or(Path::new("."))).ok();
+            fs::canonicalize(path).ok().or_else(|| Some(folder?.join(path.file_name()?)))
+        };
         let read: Vec<_> = read.iter().filter_map(|path| real(path)).collect();
         for (index, Self { path, .. }) in outputs.iter().enumerate() {
             let shown = Shown::path(path);
@@ -68,11 +73,8 @@ impl Output {
                 let what = format!("cannot write `{shown}`: it is read; give another name");
                 return Err(what.into());
             }
-            let others = &outputs[..index];
-            if others
-                .iter()
-                .any(|o| o.path == *path || real(path).is_some_and(|p| real(&o.path) == Some(p)))
-            {
+            let is_same = |other: &Self| other.path == *path || real(path) == real(&other.path);
+            if outputs[..index].iter().any(is_same) {
                 return Err(format!("`{shown}` is given twice: give each output once").into());
             }
         }
@@ -137,7 +139,7 @@ impl Output {
         });
         let free = folders.map(|folder| {
             let mut paths = names.clone().map(|name| folder.join(name));
-            paths.find(|path| !path.exists())
+            paths.find(|path| fs::symlink_metadata(path).is_err())
         });
         free.into_iter().flatten()
     }

@@ -13,7 +13,7 @@ const EXAMPLES: &str = r#"Examples:
   lobe render chapter8.toml                             writes chapter8.png and chapter8.exr here
   lobe render chapter8.toml -o a.png --spp 256          writes only a.png, with less noise
   lobe render dragon-sky.toml --time 10                 the best picture in ten seconds
-  lobe render dragon-sky.toml --spp 65536 --resume      goes on where it was ended, by whatever
+  lobe render dragon-sky.toml --spp 65536 --resume      goes on where it was ended or killed
   lobe render dragon-sky.toml --shard 3/8               one of eight parts, for lobe merge
   lobe render chapter8.toml --set film.resolution=[100,100] --set camera.fov=40
   lobe render chapter8.toml --set 'shape.dragon.obj="other.obj"'    strings need their quotes

@@ -37,7 +37,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
     let window = job.loaded.view.film().window();
     let bar = (!arguments.quiet).then(|| Bar::new(window.area() as u64));
     let progress = |progress: Progress| bar.iter().for_each(|bar| bar.update(progress));
-    let save = Saving { every: arguments.save_every.as_secs_f64(), to: &|state| job.save(state) };
+    let save = Saving { every: arguments.save_every, on_checkpoint: &|at| job.save(at) };
     let options = RenderOptions {
         threads: arguments.threads.given(),
         layers: job.layers,
