@@ -35,7 +35,7 @@ pub struct RenderOptions<'a> {
     /// returns, so it should be quick.
     pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
     /// Called after every pass, by the thread that called [`render`](super::render), with the picture so far. Passes take as
-    /// many samples as all before them: 64, 64, 128, ... or with `time` 1, 1, 2, 4, ... The next one begins when it returns.
+    /// many samples as all before them: 64, 64, 128, ... or with `time`, or 1024 samples and more, 1, 1, 2, 4, ... The next one begins when it returns.
     pub on_pass: Option<&'a (dyn Fn(&Rendered) + Sync)>,
     /// Ends the render early once it is true. It is looked at before each wave of about a thousand samples, and at each
     /// reflection.
