@@ -303,3 +303,27 @@ fn maps_show_where_images_differ() {
     assert_eq!((map.limit, map.mean()), (1.0, 0.0));
     assert_eq!(map.png()[..4], *b"\x89PNG");
 }
+
+/// The scale of a map ends at the 99.9th percentile: of 1000 values the last but one. Seen to fail with the 99th.
+#[test]
+fn the_scale_of_a_map_leaves_out_a_thousandth() {
+    let size = UVec2::new(40, 25);
+    let image = image(size, Encoding::Linear, |x, y| [(40 * y + x) as f32; 3]);
+    let black = Image { pixels: vec![Spectrum::BLACK; 1000], ..image.clone() };
+    assert_eq!(ErrorMap::absolute(&image, &black).unwrap().limit, 998.0);
+}
+
+/// The last exposure is that of the median: of the brightest pixel, where half of the pixels are as bright. Seen to fail with
+/// the lower quartile.
+#[test]
+fn exposures_end_at_the_median() {
+    let size = UVec2::new(8, 8);
+    let half = image(size, Encoding::Linear, |x, _| [if x < 4 { 0.25 } else { 1.0 }; 3]);
+    let (_, exposures) = flip(&half, &half, Viewing::default()).unwrap();
+    let exposures = exposures.unwrap();
+    assert_eq!(exposures.start, exposures.stop);
+    let less = image(size, Encoding::Linear, |x, _| [if x < 5 { 0.25 } else { 1.0 }; 3]);
+    let (_, exposures) = flip(&less, &less, Viewing::default()).unwrap();
+    let exposures = exposures.unwrap();
+    assert!((exposures.stop - exposures.start - 2.0).abs() < 1e-5, "{exposures:?}");
+}

@@ -104,6 +104,26 @@ fn frames_that_are_none_are_counted() {
     assert!(broken.picture.layers.unwrap().normal.iter().all(|n| *n == Vec3::Y));
 }
 
+/// Shades with a frame of its own, which leans towards x.
+struct Leaning;
+
+const LEANING: Vec3 = Vec3::new(0.6, 0.8, 0.0);
+
+impl Material for Leaning {
+    fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, _: &'a Arena) -> Bsdf<'a> {
+        Bsdf::new(Frame::from_normal(LEANING), si.n())
+    }
+}
+
+/// The layer of normals has those that the surface is shaded with. Seen to fail with the normal of the triangle.
+#[test]
+fn normals_of_layers_are_those_of_shading() {
+    let leaning =
+        rendered(floor_of(MatteMaterial::new([0.5; 3])).material("floor", Leaning), &from_above());
+    let layers = leaning.picture.layers.unwrap();
+    assert!(layers.normal.iter().all(|n| (*n - LEANING).length() < 1e-6), "{:?}", layers.normal);
+}
+
 /// No more threads run than there are tiles. Seen to fail with the number that was asked for.
 #[test]
 fn threads_that_took_part_are_told() {

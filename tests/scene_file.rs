@@ -413,6 +413,11 @@ fn wrong_types() {
             "[material.m]\ntype = \"matte\"\nkd = true",
             "s.toml:3:6: `material.m.kd` is true, expected a texture's name or [red, green, blue], each from 0 to 1",
         ),
+        // Seen to fail with constants of textures let pass.
+        (
+            "[texture.t]\ntype = \"constant\"\nvalue = 100\n[material.m]\ntype = \"matte\"\nsigma = \"t\"",
+            "s.toml:6:9: `material.m.sigma` is the texture \"t\", 100, expected degrees from 0 to 90",
+        ),
         ("[shape.s]\nobj = 3", "s.toml:2:7: `shape.s.obj` is 3, expected a text in quotes"),
     ]);
     let long = format!("[camera]\nfov = \"{}\"", "ü".repeat(100));

@@ -88,6 +88,8 @@ mod tests {
         assert_eq!(passes(100..250, 100, None), [64, 64, 22]);
         assert_eq!(passes(0..256, 64, None), [64, 128]);
         assert_eq!(passes(0..64, 64, None), []);
+        // Powers of two, whatever was taken.
+        assert_eq!(passes(0..64, 12, None), [8, 16, 28]);
         assert_eq!(passes(u32::MAX - 65..u32::MAX, u32::MAX - 65, None), [64, 1]);
         assert_eq!(passes(0..u32::MAX, 1 << 31, None), [u32::MAX >> 1]);
     }

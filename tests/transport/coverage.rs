@@ -77,7 +77,7 @@ fn coverage(pictures: &[Image], truth: &Image) -> Coverage {
 
 /// A lamp with its penumbra, and silhouettes before a sky: 32 × 32 pixels, 16 seeds, 3 correlated samplers at their
 /// default sets. About 47,000 values, of which those of a pixel depend on each other: the share is known to about 0.2 %:
-/// the bounds are five standard errors off the 96.3 % that were found. Seen to fail with the normal quantile in place of Student's
+/// the bounds are more than five standard errors off the 95.9 % that were found. Seen to fail with the normal quantile in place of Student's
 /// (91.9 %), with 2 sets (98.4 %), and with each pixel's variance alone (84.0 %).
 #[test]
 fn the_truth_is_in_the_stated_interval() {

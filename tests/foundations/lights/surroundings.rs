@@ -4,6 +4,7 @@ use lobe::accel::Accel;
 use lobe::glam::{Vec2, Vec3};
 use lobe::light::{AreaLight, BoundingSphere, DistantLight, Light, LightHit, SkyLight};
 use lobe::sampling::uniform_hemisphere;
+use lobe::{MatteMaterial, Scene, TriangleMesh};
 
 use super::{L, rectangle, trace};
 use crate::common::Rng;
@@ -101,4 +102,22 @@ fn directions_are_unit_vectors() {
     for bad in [Vec3::ZERO, Vec3::NAN, Vec3::INFINITY] {
         assert!(DistantLight::new(bad, L).is_none(), "{bad}");
     }
+}
+
+/// The sphere reaches the corners of the bounds, whose diagonal is 3, 4 and 12 long. Seen to fail with the longest side in
+/// place of the diagonal.
+#[test]
+fn the_bounding_sphere_reaches_the_corners() {
+    let mesh = TriangleMesh {
+        positions: vec![Vec3::ZERO, Vec3::new(3.0, 4.0, 0.0), Vec3::new(3.0, 4.0, 12.0)],
+        indices: vec![[0, 1, 2]],
+        ..TriangleMesh::default()
+    };
+    let scene = Scene::builder()
+        .material("m", MatteMaterial::new([0.5; 3]))
+        .shape("s", mesh, "m")
+        .build()
+        .unwrap();
+    let sphere = scene.bounding_sphere();
+    assert_eq!((sphere.center, sphere.radius), (Vec3::new(1.5, 2.0, 6.0), 6.5));
 }
