@@ -11,7 +11,9 @@ use lobe::glam::{UVec2, Vec3};
 use lobe::image::Window;
 use lobe::integrator::PathIntegrator;
 use lobe::light::SkyLight;
-use lobe::render::{Checkpoint, Part, RenderError, Rendered, ResumeError, SamplerSettings, Saving};
+use lobe::render::{
+    Checkpoint, Part, Progress, RenderError, Rendered, ResumeError, SamplerSettings, Saving,
+};
 use lobe::sampling::SamplerKind;
 use lobe::{
     FilmSettings, MatteMaterial, PerspectiveSettings, PointLight, RenderOptions, RenderSettings,
@@ -84,8 +86,12 @@ fn a_resumed_render_is_the_same_to_the_bit() {
         assert_same(&rendered, &whole, "saving changes nothing");
         for (number, bytes) in stored.iter().enumerate() {
             let threads = NonZeroUsize::new(1 + number % 3);
+            let (all, done) = (17 * 13, Mutex::new(17 * 13));
+            let progress = |now: Progress| *done.lock().unwrap() = now.pixels;
             let options = RenderOptions { threads, resume: Some(bytes), ..options };
+            let options = RenderOptions { progress: Some(&progress), ..options };
             let resumed = render(&scene(), &view(), &settings, &options).unwrap();
+            assert_eq!(*done.lock().unwrap(), all, "{kind:?}, from checkpoint {number}");
             assert_same(&resumed, &whole, &format!("{kind:?}, from checkpoint {number}"));
             assert!(resumed.seconds > 0.0);
         }
@@ -163,6 +169,21 @@ fn other_renders_are_refused() {
         bytes[24..28].copy_from_slice(&pass[1].to_le_bytes());
         assert_eq!(refused(&sobol, &options, &bytes), damaged, "{pass:?}");
     }
+}
+
+/// The time that earlier runs took counts: of two hours, three are over. Seen to fail with the time of this run alone.
+#[test]
+fn time_goes_on_where_it_was() {
+    let settings = settings(SamplerKind::SOBOL, 140);
+    let (_, stored) = checkpoints(&settings, &options());
+    let mut bytes = stored[2].clone();
+    // Behind seven numbers of four bytes.
+    bytes[28..36].copy_from_slice(&(3.0_f64 * 3600.0).to_le_bytes());
+    let time = Some(Duration::from_secs(2 * 3600));
+    let late = RenderOptions { time, spp: Some(140), resume: Some(&bytes), ..options() };
+    let rendered = render(&scene(), &view(), &settings, &late).unwrap();
+    assert!(!rendered.complete && rendered.seconds > 3.0 * 3600.0);
+    assert!(rendered.empty_pixels > 0, "tiles were rendered after the end");
 }
 
 /// Paths among white walls never end by themselves, and one wave of them took for ever. Seen to hang with the time looked

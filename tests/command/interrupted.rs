@@ -144,6 +144,44 @@ fn a_killed_part_goes_on() {
     assert!(fs::read(folder.0.join("a.exr")).unwrap() != bytes);
 }
 
+/// What was interrupted is no part. Seen to fail with all pictures of parts marked as parts.
+#[test]
+fn an_interrupted_part_is_none() {
+    let folder = Folder::new("interrupted-part");
+    let child =
+        start(&folder, "render s.toml --spp 100000000 --shard 1/2 --resume --save-every 0.001");
+    wait_for(&folder, "s-1-of-2.state");
+    wait_for(&folder, "s-1-of-2.exr");
+    signal(&child, "-INT");
+    assert_eq!(end(child).0.code(), Some(130));
+    folder.fails(
+        "merge s-1-of-2.exr -o m.exr",
+        "cannot read `s-1-of-2.exr`: it is not a complete part of a render: `lobe render --shard K/N` writes those",
+    );
+}
+
+/// All that a mesh consists of is part of what is rendered. Seen to fail with normals left out.
+#[test]
+fn an_identity_has_all_of_a_mesh() {
+    let folder = Folder::new("identity");
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n";
+    let identity = |text: &str| {
+        folder.write("wall.obj", text);
+        lobe::scene_file::read_scene(&folder.0.join("s.toml"), &[]).unwrap().identity()
+    };
+    let whole = identity(obj);
+    assert_eq!(whole, identity(obj));
+    for (from, to) in [
+        ("v 1 0 0", "v 2 0 0"),
+        ("vt 1 0", "vt 2 0"),
+        ("vn 0 0 1", "vn 0 1 0"),
+        ("f 1/1/1 2/2/1 3/3/1", "f 2/2/1 3/3/1 1/1/1"),
+    ] {
+        let other = identity(&obj.replace(from, to));
+        assert_eq!(whole.iter().filter(|line| !other.contains(line)).count(), 1, "{to}");
+    }
+}
+
 /// Where the state cannot be written, nothing promises that the render goes on. Seen to fail with "the same command goes on".
 #[test]
 fn a_state_that_was_not_saved_is_not_promised() {
@@ -230,6 +268,18 @@ fn a_state_of_another_render_is_refused() {
             &format!("`s.state` is of another render: {difference}; {advice}"),
         );
     }
+    // The order of values may be that of lights, which samples are dealt to.
+    let child = start(
+        &folder,
+        "render s.toml -o o.exr --spp 100000000 --resume --save-every 0.001 --set camera.fov=50 --set camera.lens_radius=0",
+    );
+    wait_for(&folder, "o.state");
+    signal(&child, "-INT");
+    assert_eq!(end(child).0.code(), Some(130));
+    folder.fails(
+        "render s.toml -o o.exr --spp 100000000 --resume --set camera.lens_radius=0 --set camera.fov=50",
+        &format!("`o.state` is of another render: its values are in another order; {advice}"),
+    );
     let obj = fs::read_to_string(folder.0.join("wall.obj")).unwrap();
     folder.write("wall.obj", &obj.replace("v 2 2 0", "v 2 2 0.5"));
     let said = folder.run("render s.toml --resume --spp 100000000");

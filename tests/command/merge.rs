@@ -98,3 +98,18 @@ fn parts_that_do_not_fit_are_refused() {
         "part 1 of 5 has none of the 3 samples: use fewer parts",
     );
 }
+
+/// Samples that were left out are those of all parts. Seen to fail with those of the last part alone.
+#[test]
+fn samples_left_out_are_added_up() {
+    let folder = Folder::new("parts-non-finite");
+    // A light so close that its radiance leaves the range of numbers.
+    let scene = "s.toml --spp 8 --set integrator.type=\"path\" --set light.key.intensity=[3e38,3e38,3e38] \
+                 --set light.key.position=[0,0,-0.0001]";
+    let left_out = |summary: &str| value(summary, "non-finite").parse::<u64>().unwrap();
+    let parts = ["1/2", "2/2"]
+        .map(|part| left_out(&folder.prints(&format!("render {scene} --shard {part}"))));
+    let merged = folder.prints("merge s-1-of-2.exr s-2-of-2.exr -o m.exr");
+    assert!(parts.iter().all(|count| *count > 0), "{parts:?}");
+    assert_eq!(left_out(&merged), parts[0] + parts[1]);
+}
