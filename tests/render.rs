@@ -13,7 +13,7 @@ use lobe::geometry::Frame;
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::integrator::{DirectIntegrator, Estimator, Integrator, PathIntegrator, Wave};
 use lobe::interaction::{Shading, SurfaceInteraction};
-use lobe::light::{BoundingSphere, Light, LightSample, SkyLight};
+use lobe::light::{BoundingSphere, DistantLight, Light, LightSample, SkyLight};
 use lobe::material::Material;
 use lobe::render::{RenderError, Rendered, SamplerSettings, Sampling, SettingsError, render_with};
 use lobe::sampling::{IndependentSampler, Sampler, SamplerKind};
@@ -122,6 +122,21 @@ fn normals_of_layers_are_those_of_shading() {
         rendered(floor_of(MatteMaterial::new([0.5; 3])).material("floor", Leaning), &from_above());
     let layers = leaning.picture.layers.unwrap();
     assert!(layers.normal.iter().all(|n| (*n - LEANING).length() < 1e-6), "{:?}", layers.normal);
+}
+
+/// A mesh with vertex normals is shaded with them, though its material is one constant lobe: under light from above by the
+/// cosine with the leaning normal. Seen to fail with such meshes shaded as flat ones.
+#[test]
+fn smooth_meshes_are_shaded_smoothly() {
+    let mut mesh = floor(-2.0, 6.0);
+    mesh.normals = vec![LEANING; 4];
+    let scene = Scene::builder()
+        .material("m", MatteMaterial::new([0.5; 3]))
+        .shape("floor", mesh, "m")
+        .light(DistantLight::new(Vec3::Y, Spectrum::WHITE).unwrap());
+    let expected = 0.5 * 0.8 / std::f32::consts::PI;
+    let color = rendered(scene, &from_above()).picture.color;
+    assert!(color.iter().all(|c| (c.to_array()[0] - expected).abs() < 1e-6), "{color:?}");
 }
 
 /// No more threads run than there are tiles. Seen to fail with the number that was asked for.

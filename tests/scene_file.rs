@@ -788,3 +788,19 @@ fn the_scenes_in_assets_are_good() {
         assert_eq!(loaded.scene.accel().triangle_count(), triangles, "{name}");
     }
 }
+
+/// The direction of a distant light is that of travel: down onto a floor. Seen to fail with that towards the light, which
+/// leaves the upper side of the floor black.
+#[test]
+fn distant_lights_shine_along_their_direction() {
+    let text = "film.resolution = [2, 2]\nsampler.spp = 1\nintegrator.type = \"direct\"\n\
+                camera = { eye = [0, 1, 0], look_at = [0, 0, 0], up = [0, 0, 1] }\n\
+                material.m = { type = \"matte\", kd = [0.5, 0.5, 0.5] }\n\
+                light.sun = { type = \"distant\", direction = [0, -1, 0], irradiance = [1, 1, 1] }\n\
+                [shape.floor]\ntype = \"rectangle\"\ncorner = [-9, 0, -9]\nedges = [[0, 0, 18], [18, 0, 0]]\nmaterial = \"m\"";
+    let loaded = parse_scene("s.toml".as_ref(), text, &[]).unwrap();
+    let options = lobe::RenderOptions::default();
+    let rendered = lobe::render(&loaded.scene, &loaded.view, &loaded.settings, &options).unwrap();
+    let expected = 0.5 / std::f32::consts::PI;
+    assert!(rendered.picture.color.iter().all(|c| (c.to_array()[0] - expected).abs() < 1e-6));
+}
