@@ -35,6 +35,13 @@ pub struct FilmContents {
     pub first_hits: bool,
 }
 
+impl FilmContents {
+    /// Bytes of the first hits of a pixel.
+    fn bytes_of_first_hits(self) -> usize {
+        if self.first_hits { size_of::<FirstHits>() } else { 0 }
+    }
+}
+
 /// Sums of the samples of each pixel, in f64, so that a million samples lose no digits. All samples of a pixel have the
 /// same weight: the filter is in their distribution. A pixel takes fewer than 2³² samples.
 ///
@@ -85,7 +92,7 @@ impl Film {
         contents: FilmContents,
     ) -> Result<Self, FilmError> {
         let area = window.area();
-        let first_hits = if contents.first_hits { size_of::<FirstHits>() } else { 0 };
+        let first_hits = contents.bytes_of_first_hits();
         // Radiance and first hits three times: as sums, in the picture, and in the file that is written. The variance once
         // as sums, and twice as a spectrum: pooled, and either by pixel before that or in the file after it.
         let variance = contents.variance.bytes();
@@ -120,9 +127,9 @@ impl Film {
 
     /// Bytes of its sums.
     pub(crate) fn bytes(&self) -> u64 {
-        let FilmContents { variance, first_hits } = self.contents;
-        let first_hits = if first_hits { size_of::<FirstHits>() } else { 0 };
-        let per_pixel = (size_of::<PixelSum>() + first_hits) as u64 + variance.bytes();
+        let contents = self.contents;
+        let sums = size_of::<PixelSum>() + contents.bytes_of_first_hits();
+        let per_pixel = sums as u64 + contents.variance.bytes();
         self.window.area() as u64 * per_pixel
     }
 

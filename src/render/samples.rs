@@ -16,13 +16,15 @@ pub struct Samples {
     sets: u32,
     pass: Range<u32>,
     next: SampleId,
+    /// The index behind the last sample of the set of `next`.
+    end: u32,
 }
 
 impl Samples {
     /// The samples whose numbers are in `pass`, which is not empty, of `sets` sets for each pixel of `window`.
     pub fn new(window: Window, sets: u32, pass: Range<u32>) -> Self {
         let first = SampleId { pixel: window.min, set: 0, index: 0 };
-        let mut samples = Self { window, sets, pass, next: first };
+        let mut samples = Self { window, sets, pass, next: first, end: 0 };
         samples.begin_set(first);
         samples
     }
@@ -44,7 +46,7 @@ impl Samples {
             }
             let indices = self.indices(at.set);
             if !indices.is_empty() {
-                self.next = SampleId { index: indices.start, ..at };
+                (self.next, self.end) = (SampleId { index: indices.start, ..at }, indices.end);
                 return;
             }
             at.set += 1;
@@ -63,11 +65,10 @@ impl Samples {
             // Samples of one set differ in their index alone.
             let left = u32::try_from(most - ids.len()).unwrap_or(u32::MAX);
             let first = self.next;
-            let end = self.indices(first.set).end;
-            let count = (end - first.index).min(left);
+            let count = (self.end - first.index).min(left);
             ids.extend((0..count).map(|i| SampleId { index: first.index + i, ..first }));
             match first.index + count {
-                index if index < end => self.next.index = index,
+                index if index < self.end => self.next.index = index,
                 _ => self.begin_set(SampleId { set: first.set + 1, ..first }),
             }
         }
