@@ -53,6 +53,24 @@ impl Folder {
         command
     }
 
+    /// The command in a shell that sets limits first, with arguments separated by blanks.
+    pub fn limited(&self, limits: &str, arguments: &str) -> Command {
+        let script = format!("{limits}; exec \"$0\" \"$@\"");
+        let mut command = Command::new("sh");
+        command.current_dir(&self.0).args(["-c", &script, env!("CARGO_BIN_EXE_lobe")]);
+        command.args(arguments.split_whitespace());
+        command
+    }
+
+    /// The bytes of an EXR file, without the time that rendering took.
+    pub fn exr(&self, name: &str) -> Vec<u8> {
+        let mut bytes = fs::read(self.0.join(name)).unwrap();
+        let key = b"renderSeconds\0double\0";
+        let at = bytes.windows(key.len()).position(|window| window == key).unwrap() + key.len();
+        bytes[at + 4..at + 12].fill(0);
+        bytes
+    }
+
     /// Runs the command in the folder, with arguments separated by blanks.
     pub fn run(&self, arguments: &str) -> Output {
         self.command(arguments.split_whitespace()).output().unwrap()

@@ -1,7 +1,6 @@
 //! Images that are made to take all memory or all time, under a limit that the operating system enforces.
 
 use std::fs::{self, File};
-use std::process::Command;
 
 use crate::exr_file::ExrFile;
 use crate::folder::{Folder, value};
@@ -12,13 +11,7 @@ const RGB: [&str; 3] = ["B", "G", "R"];
 #[cfg(target_os = "linux")]
 #[track_caller]
 fn fails_within(folder: &Folder, arguments: &str, message: &str) {
-    let script = "ulimit -v 524288; exec \"$0\" \"$@\"";
-    let output = Command::new("sh")
-        .args(["-c", script, env!("CARGO_BIN_EXE_lobe")])
-        .args(arguments.split_whitespace())
-        .current_dir(&folder.0)
-        .output()
-        .unwrap();
+    let output = folder.limited("ulimit -v 524288", arguments).output().unwrap();
     assert_eq!(String::from_utf8(output.stderr).unwrap(), format!("error: {message}\n"));
     assert_eq!(output.status.code(), Some(1));
 }
@@ -120,7 +113,7 @@ fn sizes_are_compared_first() {
 fn pipes_and_devices_are_refused() {
     let folder = Folder::new("pipes");
     let pipe = folder.0.join("pipe.png");
-    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
     std::os::unix::fs::symlink("/dev/zero", folder.0.join("zero.pfm")).unwrap();
     for name in ["pipe.png", "zero.pfm"] {
         let reason = "it is not an ordinary file; copy its contents to one first";

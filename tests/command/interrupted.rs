@@ -1,4 +1,4 @@
-//! Renders that are interrupted, killed, resumed, or find no space: nothing that was there is lost.
+//! Renders that are interrupted, killed and resumed: nothing that was there is lost.
 
 use std::fs;
 use std::process::{Child, ExitStatus, Stdio};
@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use lobe::image::Image;
 
-use crate::folder::{Folder, value};
+use crate::folder::Folder;
 
 /// A generator of moments: a multiplicative sequence, different for each seed.
 struct Moments(u64);
@@ -18,15 +18,6 @@ impl Moments {
             self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         Duration::from_secs_f64(most * (self.0 >> 40) as f64 / (1 << 24) as f64 / 1000.0)
     }
-}
-
-/// The bytes of an EXR file without the time that it took.
-fn exr(folder: &Folder, name: &str) -> Vec<u8> {
-    let mut bytes = fs::read(folder.0.join(name)).unwrap();
-    let key = b"renderSeconds\0double\0";
-    let at = bytes.windows(key.len()).position(|window| window == key).unwrap() + key.len();
-    bytes[at + 4..at + 12].fill(0);
-    bytes
 }
 
 fn start(folder: &Folder, arguments: &str) -> Child {
@@ -134,7 +125,7 @@ fn a_killed_part_goes_on() {
     signal(&child, "-KILL");
     end(child);
     folder.prints(&format!("{part} -o a.exr --quiet"));
-    assert!(exr(&folder, "a.exr") == exr(&folder, "whole.exr"));
+    assert!(folder.exr("a.exr") == folder.exr("whole.exr"));
     // Once complete it is left as it is, but not for another part or another scene.
     let bytes = fs::read(folder.0.join("a.exr")).unwrap();
     let said = folder.prints(&format!("{part} -o a.exr"));
@@ -186,9 +177,8 @@ fn an_identity_has_all_of_a_mesh() {
 #[test]
 fn a_state_that_was_not_saved_is_not_promised() {
     let folder = Folder::new("unsaved");
-    let script = "trap '' XFSZ; ulimit -f 3; exec \"$0\" render s.toml --spp 100000000 -o s.png --resume --save-every 0.01 --quiet";
-    let mut command = std::process::Command::new("sh");
-    command.current_dir(&folder.0).args(["-c", script, env!("CARGO_BIN_EXE_lobe")]);
+    let endless = "render s.toml --spp 100000000 -o s.png --resume --save-every 0.01 --quiet";
+    let mut command = folder.limited("trap '' XFSZ; ulimit -f 3", endless);
     let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
     std::thread::sleep(Duration::from_millis(500));
     signal(&child, "-INT");
@@ -205,7 +195,7 @@ fn kill_and_resume(test: &str, kills: usize, most: f64) {
     let settings = "--spp 300 --set sampler.type=\"sobol\" --set film.resolution=[60,40]";
     folder.prints(&format!("render s.toml {settings} -o whole.exr -o whole.png --quiet"));
     let (whole, shown) =
-        (exr(&folder, "whole.exr"), Image::read(folder.0.join("whole.png")).unwrap());
+        (folder.exr("whole.exr"), Image::read(folder.0.join("whole.png")).unwrap());
     let (mut moments, mut killed, mut resumed) = (Moments(1), 0, 0);
     while killed < kills {
         let mut child = start(
@@ -220,7 +210,7 @@ fn kill_and_resume(test: &str, kills: usize, most: f64) {
         }
         let (status, said) = end(child);
         if status.success() {
-            assert_eq!(exr(&folder, "a.exr"), whole, "after {killed} kills");
+            assert_eq!(folder.exr("a.exr"), whole, "after {killed} kills");
             assert!(Image::read(folder.0.join("a.png")).unwrap() == shown, "after {killed} kills");
             let files = ["a.exr", "a.png", "s.toml", "wall.obj", "whole.exr", "whole.png"];
             assert_eq!(folder.files(), files, "after {killed} kills");
@@ -300,94 +290,4 @@ fn a_state_of_another_render_is_refused() {
     folder.write("s.state", "a file of the user's");
     folder.fails("render s.toml --resume", damaged);
     assert_eq!(fs::read(folder.0.join("s.state")).unwrap(), b"a file of the user's");
-}
-
-/// Under a limit for the size of files, as on a full disk. Seen to fail with both files written one after the other: the
-/// PNG was new and the EXR old; and with the picture dropped.
-#[test]
-fn a_full_disk_loses_nothing() {
-    let folder = Folder::new("full");
-    folder.prints("render s.toml --quiet");
-    let (old_exr, old_png) = (exr(&folder, "s.exr"), fs::read(folder.0.join("s.png")).unwrap());
-    // In units of 512 bytes: enough for the PNG, too little for the EXR.
-    let script = "trap '' XFSZ; ulimit -f 3; exec \"$0\" render s.toml --seed 9 --quiet";
-    let mut command = std::process::Command::new("sh");
-    command.current_dir(&folder.0).args(["-c", script, env!("CARGO_BIN_EXE_lobe")]);
-    let output = command.env("TMPDIR", &folder.0).output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(1), "{said}");
-    assert_eq!(
-        said,
-        "error: cannot write `s.exr`: File too large (os error 27); free some space or choose another disk; \
-         the picture is kept in `kept-0-s.png`\n"
-    );
-    assert!(exr(&folder, "s.exr") == old_exr);
-    assert_eq!(fs::read(folder.0.join("s.png")).unwrap(), old_png);
-    assert_eq!(folder.files(), ["kept-0-s.png", "s.exr", "s.png", "s.toml", "wall.obj"]);
-    assert_ne!(fs::read(folder.0.join("kept-0-s.png")).unwrap(), old_png);
-}
-
-/// What killed processes left goes, and nothing else. Seen to fail without the sweep, and with files swept that a living
-/// process has locked.
-#[test]
-fn temporaries_of_killed_processes_are_swept() {
-    let folder = Folder::new("swept");
-    folder.write(".lobe-123-4.tmp", "left");
-    folder.write(".lobe-mine.tmp", "a file of the user's");
-    folder.write(".lobe-5-6.tmp", "in use");
-    let used = fs::File::open(folder.0.join(".lobe-5-6.tmp")).unwrap();
-    used.lock().unwrap();
-    folder.prints("render s.toml -o a.png --quiet");
-    let files = [".lobe-5-6.tmp", ".lobe-mine.tmp", "a.png", "s.toml", "wall.obj"];
-    assert_eq!(folder.files(), files);
-}
-
-/// Seen to fail without these checks: the scene's file was replaced by a picture.
-#[test]
-fn outputs_are_not_the_scenes_own_files() {
-    let folder = Folder::new("own");
-    let scene = fs::read_to_string(folder.0.join("s.toml")).unwrap();
-    fs::rename(folder.0.join("wall.obj"), folder.0.join("wall.png")).unwrap();
-    folder.write("s.png", &scene.replace("wall.obj", "wall.png"));
-    let own = |name: &str| format!("cannot write `{name}`: it is read; give another name");
-    folder.fails("render s.png -o ./wall.png", &own("./wall.png"));
-    folder.fails("render s.png -o a.exr -o s.png", &own("s.png"));
-    folder.fails(
-        "render s.png -o a.exr -o ./a.exr",
-        "`./a.exr` is given twice: give each output once",
-    );
-    // A link to no file yet leads there, and stays a link.
-    #[cfg(unix)]
-    {
-        std::os::unix::fs::symlink("real.png", folder.0.join("link.png")).unwrap();
-        folder.prints("render s.png -o link.png --quiet");
-        assert!(fs::symlink_metadata(folder.0.join("link.png")).unwrap().is_symlink());
-        assert!(fs::symlink_metadata(folder.0.join("real.png")).unwrap().is_file());
-    }
-}
-
-/// Before anything is rendered. Seen to fail with the check left to the writing.
-#[test]
-fn sizes_that_no_file_holds_are_refused() {
-    let folder = Folder::new("sides");
-    folder.fails(
-        "render s.toml --spp 100000000 --set film.resolution=[2000000000,1] --set film.crop=[0,0,1,1]",
-        "a file's sides hold at most 1073741822 pixels, but film.resolution is 2000000000 x 1",
-    );
-}
-
-/// A thousand threads where memory allows few: those that there are render. Seen to abort with threads that start without
-/// asking for memory, and with all starting at once.
-#[test]
-fn threads_are_as_many_as_memory_allows() {
-    let folder = Folder::new("threads");
-    let script = "ulimit -v 400000; exec \"$0\" render s.toml --threads 1000 --set film.resolution=[1000,600]";
-    let mut command = std::process::Command::new("sh");
-    command.current_dir(&folder.0).args(["-c", script, env!("CARGO_BIN_EXE_lobe")]);
-    let output = command.output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.success(), "{said}");
-    let summary = String::from_utf8(output.stdout).unwrap();
-    let threads: u32 = value(&summary, "threads").parse().unwrap();
-    assert!((1..1000).contains(&threads), "{summary}");
 }

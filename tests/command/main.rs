@@ -13,6 +13,7 @@ mod folders;
 mod images;
 mod interrupted;
 mod merge;
+mod outputs;
 mod terminal;
 
 use std::fs;
