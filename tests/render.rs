@@ -16,7 +16,7 @@ use lobe::interaction::{Shading, SurfaceInteraction};
 use lobe::light::{BoundingSphere, DistantLight, Light, LightSample, SkyLight};
 use lobe::material::Material;
 use lobe::render::{RenderError, Rendered, SamplerSettings, Sampling, SettingsError, render_with};
-use lobe::sampling::{IndependentSampler, Sampler, SamplerKind};
+use lobe::sampling::{IndependentSampler, Sampler, SamplerKind, SobolSampler};
 use lobe::scene::SceneBuilder;
 use lobe::texture::Texture;
 use lobe::{
@@ -510,6 +510,20 @@ fn pixels_whose_samples_are_all_left_out_are_empty() {
     assert_eq!((rendered.empty_pixels, rendered.non_finite), (15, 60));
     assert_eq!(rendered.picture.color[0], Spectrum::BLACK);
     assert_eq!(rendered.picture.color[1], Spectrum::WHITE);
+}
+
+/// Sets beyond the number of samples would be empty, and take memory. Seen to fail with room made for all of them.
+#[test]
+fn there_are_no_more_sets_than_samples() {
+    let scene = floor_of(MatteMaterial::new([0.5; 3])).light(SkyLight::new(Spectrum::WHITE));
+    let (scene, sampler) = (scene.build().unwrap(), SobolSampler::new(0));
+    let of = |sets| {
+        let sampling = Sampling { sampler: &sampler, spp: 2, sets };
+        let options = RenderOptions { layers: true, ..RenderOptions::default() };
+        let integrator = DirectIntegrator::default();
+        render_with(&scene, &from_above(), &integrator, sampling, &options).unwrap().picture
+    };
+    assert!(of(u32::MAX) == of(2));
 }
 
 /// Samples are divided into as many sets as were asked for, up to 1024, and up to one for each sample. Seen to fail without

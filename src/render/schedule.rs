@@ -88,6 +88,10 @@ mod tests {
         assert_eq!(passes(100..250, 100, None), [64, 64, 22]);
         assert_eq!(passes(0..256, 64, None), [64, 128]);
         assert_eq!(passes(0..64, 64, None), []);
+        // Of a hundred seconds, 99 went into 8 samples before; a hundred hours leave room.
+        let after = |time| PassSchedule::new(0..64, 8, Some(time), 99.0).next();
+        assert_eq!(after(100.0), None);
+        assert_eq!(after(360_000.0), Some(8..16));
         // Powers of two, whatever was taken.
         assert_eq!(passes(0..64, 12, None), [8, 16, 28]);
         assert_eq!(passes(u32::MAX - 65..u32::MAX, u32::MAX - 65, None), [64, 1]);
