@@ -55,6 +55,7 @@ pub mod scene;
 #[cfg(feature = "scene-file")]
 pub mod scene_file;
 pub mod shape;
+mod simd;
 mod spectrum;
 pub mod texture;
 

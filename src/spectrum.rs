@@ -5,6 +5,8 @@ use std::ops::{Add, AddAssign, Div, Mul, Sub};
 
 use glam::{Vec3, Vec3A};
 
+use crate::simd::{Float, LaneMask};
+
 /// A spectral quantity in three bands: linear RGB with the Rec. 709 primaries and the D65 white point.
 ///
 /// The unit depends on the use: radiance in W / (m² sr), radiant intensity in W / sr, or a reflectance without
@@ -141,5 +143,88 @@ impl Div<f32> for Spectrum {
 impl Sum for Spectrum {
     fn sum<I: Iterator<Item = Self>>(spectra: I) -> Self {
         spectra.fold(Self::BLACK, Add::add)
+    }
+}
+
+/// The bands of a [`Spectrum`], or of one in each lane.
+#[derive(Clone, Copy)]
+pub(crate) struct Bands<F>(pub [F; 3]);
+
+impl<F: Float> Bands<F> {
+    /// The same spectrum in every lane.
+    #[inline(always)]
+    pub fn splat(spectrum: Spectrum) -> Self {
+        let [r, g, b] = spectrum.to_array();
+        Self([F::splat(r), F::splat(g), F::splat(b)])
+    }
+
+    /// Per lane: the spectrum where the mask is set, otherwise black.
+    #[inline(always)]
+    pub fn only(self, mask: F::Mask) -> Self {
+        let [r, g, b] = self.0;
+        let zero = F::splat(0.0);
+        Self([F::select(mask, r, zero), F::select(mask, g, zero), F::select(mask, b, zero)])
+    }
+
+    /// As [`Spectrum::is_black`].
+    #[inline(always)]
+    pub fn is_black(self) -> F::Mask {
+        let ([r, g, b], zero) = (self.0, F::splat(0.0));
+        r.eq(zero) & g.eq(zero) & b.eq(zero)
+    }
+
+    /// As [`Spectrum::is_valid`].
+    #[inline(always)]
+    pub fn is_valid(self) -> F::Mask {
+        let (zero, infinity) = (F::splat(0.0), F::splat(f32::INFINITY));
+        let mut valid = F::Mask::splat(true);
+        for band in self.0 {
+            valid = valid & zero.le(band) & band.lt(infinity);
+        }
+        valid
+    }
+
+    /// As [`Spectrum::max_component`].
+    #[inline(always)]
+    pub fn max_component(self) -> F {
+        let [r, g, b] = self.0;
+        r.max(g).max(b)
+    }
+}
+
+impl<F: Float> Mul for Bands<F> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        let ([r, g, b], [or, og, ob]) = (self.0, other.0);
+        Self([r * or, g * og, b * ob])
+    }
+}
+
+impl<F: Float> Mul<F> for Bands<F> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, factor: F) -> Self {
+        let [r, g, b] = self.0;
+        Self([r * factor, g * factor, b * factor])
+    }
+}
+
+impl<F: Float> Div<F> for Bands<F> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn div(self, divisor: F) -> Self {
+        let [r, g, b] = self.0;
+        Self([r / divisor, g / divisor, b / divisor])
+    }
+}
+
+impl From<Bands<f32>> for Spectrum {
+    #[inline(always)]
+    fn from(Bands(bands): Bands<f32>) -> Self {
+        bands.into()
     }
 }

@@ -1,23 +1,21 @@
 //! Rays against all triangles of a scene: [`Accel`].
 //!
-//! Four rooms, each of which knows only those before it, but `trace` not `build`:
-//! - `simd`: sixteen f32 at a time, with the widest instructions of the processor ([`InstructionSet`]);
+//! Three rooms, each of which knows only those before it, but `trace` not `build`:
 //! - `tree`: the data, a bounding volume hierarchy with sixteen children per node;
 //! - `build`: from meshes to that tree, with obvhs;
 //! - `trace`: rays through that tree, one at a time or in beams.
 
 mod build;
-mod simd;
 mod trace;
 mod tree;
 
-pub use simd::{InstructionSet, InstructionSetError};
+pub use crate::simd::{InstructionSet, InstructionSetError};
 pub use trace::Hit;
 pub use tree::Aabb;
 
 use crate::geometry::Ray;
 use crate::shape::TriangleMesh;
-use simd::Kernel;
+use crate::simd::Kernel;
 use trace::{AnyHit, Batch, ClosestHit, Stack, Start};
 use tree::{Bvh, MAX_TRIANGLES};
 

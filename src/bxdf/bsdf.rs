@@ -9,6 +9,7 @@ use super::{BxDF, BxdfFlags, BxdfSample, Lobe};
 use crate::geometry::Frame;
 use crate::geometry::float::ONE_MINUS_EPSILON;
 use crate::interaction::SurfaceInteraction;
+use crate::simd::Float;
 use crate::spectrum::Spectrum;
 
 /// The most lobes that one [`Bsdf`] holds (PBRT's `MaxBxDFs`).
@@ -59,6 +60,8 @@ pub struct Bsdf<'a> {
     ng: Vec3,
     /// Each lobe with its flags, cached so that lobes of other kinds are skipped without a call.
     lobes: ArrayVec<(Lobe<'a>, BxdfFlags), MAX_LOBES>,
+    /// Whether the tangents of the frame are those of [`Frame::from_normal`].
+    is_isotropic: bool,
     rejected: Cell<u32>,
 }
 
@@ -81,7 +84,8 @@ impl<'a> Bsdf<'a> {
     /// isotropic lobes.
     #[inline]
     pub fn isotropic(si: &SurfaceInteraction) -> Self {
-        Self::in_frame(Frame::from_normal(si.shading_n()), si.n())
+        let frame = Frame::from_normal(si.shading_n());
+        Self { is_isotropic: true, ..Self::in_frame(frame, si.n()) }
     }
 
     /// A surface without lobes. The frame follows the shading normal and its x axis follows ∂p/∂u: for
@@ -93,7 +97,8 @@ impl<'a> Bsdf<'a> {
 
     #[inline]
     fn in_frame(frame: Frame, ng: Vec3) -> Self {
-        Self { frame, ng, lobes: ArrayVec::new_const(), rejected: Cell::new(0) }
+        let lobes = ArrayVec::new_const();
+        Self { frame, ng, lobes, is_isotropic: false, rejected: Cell::new(0) }
     }
 
     /// Adds a lobe: one of this crate's by value, any other by reference. A material lends a lobe that it holds
@@ -270,11 +275,22 @@ impl<'a> Bsdf<'a> {
     /// normal disagree.
     #[inline]
     fn side(&self, [wo, wi]: [Vec3; 2], local: [Vec3; 2]) -> BxdfFlags {
-        let reflects = (wi.dot(self.ng) > 0.0) == (wo.dot(self.ng) > 0.0);
-        match (reflects, (local[0].z > 0.0) == (local[1].z > 0.0)) {
-            (true, true) => BxdfFlags::REFLECTION,
-            (false, false) => BxdfFlags::TRANSMISSION,
+        match sides([wo.dot(self.ng), wi.dot(self.ng)], local.map(|w| w.z)) {
+            [true, _] => BxdfFlags::REFLECTION,
+            [_, true] => BxdfFlags::TRANSMISSION,
             _ => BxdfFlags::empty(),
+        }
+    }
+
+    /// The only lobe, if there is one, where the tangents are arbitrary and the geometric normal is `ng`: enough to evaluate
+    /// it with others at a time. `None` if there is more to know.
+    #[inline(always)]
+    pub(super) fn only_lobe(&self, ng: Vec3) -> Option<Option<&Lobe<'a>>> {
+        let is_simple = self.is_isotropic && self.ng == ng && self.rejected() == 0;
+        match &self.lobes[..] {
+            [] if is_simple => Some(None),
+            [(lobe, _)] if is_simple => Some(Some(lobe)),
+            _ => None,
         }
     }
 
@@ -340,6 +356,15 @@ impl<'a> Bsdf<'a> {
     fn reject(&self) {
         self.rejected.set(self.rejected.get() + 1);
     }
+}
+
+/// Whether pairs of directions are reflections, and whether they are transmissions, from their cosines with the geometric
+/// normal and with the shading normal. Neither, if the normals disagree.
+#[inline(always)]
+pub(super) fn sides<F: Float>(with_ng: [F; 2], with_ns: [F; 2]) -> [F::Mask; 2] {
+    let differ = |[a, b]: [F; 2]| a.gt(F::splat(0.0)) ^ b.gt(F::splat(0.0));
+    let (ng, ns) = (differ(with_ng), differ(with_ns));
+    [!(ng | ns), ng & ns]
 }
 
 const SIDES: BxdfFlags = BxdfFlags::REFLECTION.union(BxdfFlags::TRANSMISSION);

@@ -4,8 +4,10 @@ use std::f32::consts::FRAC_1_PI;
 
 use glam::{Vec2, Vec3};
 
-use super::{BxDF, BxdfFlags};
-use crate::spectrum::Spectrum;
+use super::{BxDF, BxdfFlags, WideBxdf};
+use crate::geometry::Xyz;
+use crate::simd::Float;
+use crate::spectrum::{Bands, Spectrum};
 
 /// Ideal diffuse reflection: the same radiance in all directions (PBRT 3rd edition, section 8.3).
 ///
@@ -26,15 +28,29 @@ impl LambertianReflection {
     }
 }
 
+impl WideBxdf<3> for LambertianReflection {
+    const FLAGS: BxdfFlags = BxdfFlags::REFLECTION.union(BxdfFlags::DIFFUSE);
+
+    #[inline(always)]
+    fn numbers(&self) -> [f32; 3] {
+        self.r.to_array()
+    }
+
+    #[inline(always)]
+    fn f<F: Float>(r: [F; 3], _wo: Xyz<F>, _wi: Xyz<F>) -> Bands<F> {
+        Bands(r) * F::splat(FRAC_1_PI)
+    }
+}
+
 impl BxDF for LambertianReflection {
     #[inline]
     fn flags(&self) -> BxdfFlags {
-        BxdfFlags::REFLECTION | BxdfFlags::DIFFUSE
+        Self::FLAGS
     }
 
     #[inline]
-    fn f(&self, _wo: Vec3, _wi: Vec3) -> Spectrum {
-        self.r * FRAC_1_PI
+    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+        <Self as WideBxdf<3>>::f(self.numbers(), wo.into(), wi.into()).into()
     }
 
     #[inline]

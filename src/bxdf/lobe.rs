@@ -2,12 +2,42 @@
 
 use glam::{Vec2, Vec3};
 
-use super::{BxDF, BxdfFlags, BxdfSample};
+use super::{BxDF, BxdfFlags, BxdfSample, WideBxdf};
 use crate::spectrum::Spectrum;
 
 /// Defines [`Lobe`] from the list of this crate's models.
 macro_rules! lobes {
     ($($model:ident),* $(,)?) => {
+        /// A model of this crate.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(super) enum Model {
+            $($model,)*
+        }
+
+        /// Runs `$call` with `$type` as the type of a model.
+        macro_rules! of_model {
+            ($which:expr, $type:ident => $call:expr) => {
+                match $which {
+                    $($crate::bxdf::lobe::Model::$model => {
+                        type $type = $crate::bxdf::$model;
+                        $call
+                    })*
+                }
+            };
+        }
+        pub(super) use of_model;
+
+        impl Lobe<'_> {
+            /// The model, if it is one of this crate, and the numbers of the lobe, followed by zeros.
+            #[inline(always)]
+            pub(super) fn numbers(&self) -> Option<(Model, [f32; MOST_NUMBERS])> {
+                match self {
+                    $(Self::$model(lobe) => Some((Model::$model, padded(lobe.numbers()))),)*
+                    Self::Custom(_) => None,
+                }
+            }
+        }
+
         /// One lobe: a model of this crate, stored in place, or a reference to any other [`BxDF`].
         ///
         /// Models of this crate are dispatched by an inlined branch, others by a virtual call.
@@ -45,6 +75,16 @@ macro_rules! lobes {
 }
 
 lobes!(LambertianReflection, OrenNayar);
+
+/// Most numbers of a lobe.
+pub(super) const MOST_NUMBERS: usize = 5;
+
+#[inline(always)]
+fn padded<const N: usize>(numbers: [f32; N]) -> [f32; MOST_NUMBERS] {
+    let mut padded = [0.0; MOST_NUMBERS];
+    padded[..N].copy_from_slice(&numbers);
+    padded
+}
 
 impl<'a> From<&'a dyn BxDF> for Lobe<'a> {
     #[inline]

@@ -4,9 +4,11 @@ use std::f32::consts::FRAC_1_PI;
 
 use glam::{Vec2, Vec3};
 
-use super::{BxDF, BxdfFlags};
+use super::{BxDF, BxdfFlags, WideBxdf};
+use crate::geometry::Xyz;
 use crate::geometry::trig::{abs_cos_theta, sin_theta, sin2_theta};
-use crate::spectrum::Spectrum;
+use crate::simd::Float;
+use crate::spectrum::{Bands, Spectrum};
 
 /// Rough diffuse reflection: V-shaped grooves with Lambertian sides, whose slopes have the standard
 /// deviation sigma. It is brighter than Lambertian reflection towards the light, and looks flatter on
@@ -38,19 +40,34 @@ impl OrenNayar {
     }
 }
 
+impl WideBxdf<5> for OrenNayar {
+    const FLAGS: BxdfFlags = BxdfFlags::REFLECTION.union(BxdfFlags::DIFFUSE);
+
+    #[inline(always)]
+    fn numbers(&self) -> [f32; 5] {
+        let [r, g, b] = self.r.to_array();
+        [r, g, b, self.a, self.b]
+    }
+
+    #[inline(always)]
+    fn f<F: Float>([red, green, blue, a, b]: [F; 5], wo: Xyz<F>, wi: Xyz<F>) -> Bands<F> {
+        // sin θi sin θo max(0, cos Δφ) is the dot product of the directions projected onto the surface, and
+        // sin α tan β = sin θi sin θo / max(cos θi, cos θo): no angle has to be computed.
+        let across = (wo.x * wi.x + wo.y * wi.y).max(F::splat(0.0));
+        let larger_cos = wo.z.abs().max(wi.z.abs());
+        Bands([red, green, blue]) * (F::splat(FRAC_1_PI) * (a + b * (across / larger_cos)))
+    }
+}
+
 impl BxDF for OrenNayar {
     #[inline]
     fn flags(&self) -> BxdfFlags {
-        BxdfFlags::REFLECTION | BxdfFlags::DIFFUSE
+        Self::FLAGS
     }
 
     #[inline]
     fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        // sin θi sin θo max(0, cos Δφ) is the dot product of the directions projected onto the surface, and
-        // sin α tan β = sin θi sin θo / max(cos θi, cos θo): no angle has to be computed.
-        let across = wo.truncate().dot(wi.truncate()).max(0.0);
-        let larger_cos = abs_cos_theta(wo).max(abs_cos_theta(wi));
-        self.r * (FRAC_1_PI * (self.a + self.b * (across / larger_cos)))
+        <Self as WideBxdf<5>>::f(self.numbers(), wo.into(), wi.into()).into()
     }
 
     #[inline]

@@ -2,8 +2,9 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
-use crate::geometry::trig::{abs_cos_theta, same_hemisphere};
-use crate::sampling::{cosine_hemisphere, uniform_hemisphere};
+use super::{cosine_pdf, cosine_sample};
+use crate::geometry::trig::abs_cos_theta;
+use crate::sampling::uniform_hemisphere;
 use crate::spectrum::Spectrum;
 
 bitflags::bitflags! {
@@ -173,10 +174,7 @@ pub trait BxDF: Send + Sync {
     /// direction; both are uniform and independent.
     #[inline]
     fn sample_f(&self, wo: Vec3, _uc: f32, u: Vec2) -> Option<BxdfSample> {
-        let mut wi = cosine_hemisphere::sample(u);
-        if wo.z < 0.0 {
-            wi.z = -wi.z;
-        }
+        let wi = cosine_sample(wo.into(), u.to_array()).into();
         let pdf = self.pdf(wo, wi);
         (pdf > 0.0).then(|| {
             let f = self.f(wo, wi);
@@ -190,7 +188,7 @@ pub trait BxDF: Send + Sync {
     /// Density over solid angle with which `sample_f` returns `wi`; 0 for a delta lobe.
     #[inline]
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        if same_hemisphere(wo, wi) { cosine_hemisphere::pdf(abs_cos_theta(wi)) } else { 0.0 }
+        cosine_pdf(wo.into(), wi.into())
     }
 
     /// Whether `sample_f` uses `uc`. If not, one sample value per hit is saved, and `uc` is NaN.

@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use glam::{UVec2, Vec2, Vec3};
 
+use super::block::{CameraSamples, WideCamera, ray_of_one, rays_wide};
 use super::error::CameraError;
 use super::placement::{Axes, EYE, HANDEDNESS, Handedness, LOOK_AT, UP, check_resolution, fault};
 use super::traits::{Camera, Read};
-use crate::geometry::Ray;
-use crate::geometry::angle::unit_circle;
+use crate::geometry::{Ray, Xyz};
 use crate::params::{Fault, Kind, Table};
+use crate::simd::{Float, four};
 
 /// How an equirectangular camera stands. The defaults stand at the origin with +z in the middle of the image.
 /// Coordinates go up to [`MAX_COORDINATE`](crate::geometry::float::MAX_COORDINATE).
@@ -71,6 +72,24 @@ impl EquirectangularCamera {
     }
 }
 
+impl WideCamera for EquirectangularCamera {
+    #[inline(always)]
+    fn ray<F: Float>(&self, pixel: [F; 2], offset: [F; 2], _lens: [F; 2]) -> [Xyz<F>; 2] {
+        let resolution = self.resolution.as_vec2();
+        let (columns, rows) = (F::splat(resolution.x), F::splat(resolution.y));
+        // In turns. A wide filter may ask for points beyond the image: beyond a pole, the other side comes down again.
+        let (half, one) = (F::splat(0.5), F::splat(1.0));
+        let phi = (pixel[0] - columns * half + offset[0]) / columns;
+        let theta = half * (pixel[1] + offset[1]) / rows;
+        // By its magnitude, so that left and right are alike to the bit.
+        let ([cos_phi, sin_phi], [cos_theta, sin_theta]) = (circle(phi.abs()), circle(theta));
+        let vectors = [self.settings.eye, self.right, self.up, self.forward];
+        let [eye, right, up, forward] = four(|i| Xyz::splat(vectors[i]));
+        let across = forward * cos_phi + right * (one.copysign(phi) * sin_phi);
+        [eye, across * sin_theta + up * cos_theta]
+    }
+}
+
 impl Camera for EquirectangularCamera {
     fn resolution(&self) -> UVec2 {
         self.resolution
@@ -80,22 +99,24 @@ impl Camera for EquirectangularCamera {
         false
     }
 
-    fn generate_ray(&self, pixel: UVec2, offset: Vec2, _lens: Vec2) -> Ray {
-        let resolution = self.resolution.as_vec2();
-        // In turns. A wide filter may ask for points beyond the image: beyond a pole, the other side comes down again.
-        let phi = (pixel.x as f32 - resolution.x / 2.0 + offset.x) / resolution.x;
-        let theta = 0.5 * (pixel.y as f32 + offset.y) / resolution.y;
-        let circle = |turn: f32| unit_circle(turn - turn.floor());
-        // By its magnitude, so that left and right are alike to the bit.
-        let (side, phi, theta) = (phi.signum(), circle(phi.abs()), circle(theta));
-        let across = phi.x * self.forward + side * phi.y * self.right;
-        Ray::new(self.settings.eye, theta.y * across + theta.x * self.up)
+    fn generate_ray(&self, pixel: UVec2, offset: Vec2, lens: Vec2) -> Ray {
+        ray_of_one(self, pixel, offset, lens)
+    }
+
+    fn generate_rays(&self, samples: &CameraSamples, rays: &mut [Ray]) {
+        rays_wide(self, samples, rays);
     }
 
     fn describe(&self) -> String {
         let EquirectangularSettings { eye, look_at, handedness, .. } = self.settings;
         format!("equirectangular, {eye} to {look_at}{}", handedness.note())
     }
+}
+
+/// (cos φ, sin φ) for any number of turns.
+#[inline(always)]
+fn circle<F: Float>(turns: F) -> [F; 2] {
+    (turns - turns.floor()).unit_circle()
 }
 
 /// `type = "equirectangular"`

@@ -51,6 +51,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod block;
 mod equirectangular;
 mod error;
 mod orthographic;
@@ -58,6 +59,7 @@ mod perspective;
 mod placement;
 mod traits;
 
+pub use block::CameraSamples;
 pub use equirectangular::{EquirectangularCamera, EquirectangularSettings};
 pub use error::CameraError;
 pub use orthographic::{OrthographicCamera, OrthographicSettings};

@@ -4,16 +4,17 @@ use std::sync::Arc;
 
 use glam::{UVec2, Vec2, Vec3};
 
+use super::block::{CameraSamples, WideCamera, ray_of_one, rays_wide};
 use super::error::CameraError;
 use super::placement::{
     Axes, EYE, FOCAL_DISTANCE, HANDEDNESS, Handedness, LENS_RADIUS, LOOK_AT, MAX_COORDINATE_F64,
-    UP, check_lens, check_resolution, fault,
+    UP, check_lens, check_resolution, fault, point_on_lens,
 };
 use super::traits::{Camera, Read};
-use crate::geometry::Ray;
+use crate::geometry::{Ray, Xyz};
 use crate::geometry::float::MAX_COORDINATE;
 use crate::params::{Fault, Key, Kind, Table};
-use crate::sampling::concentric_disk;
+use crate::simd::{Float, four};
 
 /// How an orthographic camera stands and sees. The defaults look from the origin along +z at 2 × 2 units, as PBRT's
 /// screen does. Coordinates, the lens and both sides of the image go up to
@@ -100,6 +101,23 @@ impl OrthographicCamera {
     }
 }
 
+impl WideCamera for OrthographicCamera {
+    #[inline(always)]
+    fn ray<F: Float>(&self, pixel: [F; 2], offset: [F; 2], lens: [F; 2]) -> [Xyz<F>; 2] {
+        let middle = self.resolution.as_vec2() / 2.0;
+        let x = pixel[0] - F::splat(middle.x) + offset[0];
+        let y = pixel[1] - F::splat(middle.y) + offset[1];
+        let vectors = [self.settings.eye, self.forward, self.pixel_x, self.pixel_y];
+        let [eye, forward, pixel_x, pixel_y] = four(|i| Xyz::splat(vectors[i]));
+        let o = eye + pixel_x * x + pixel_y * y;
+        let Some(axes) = self.lens else { return [o, forward] };
+        // All rays of one film point meet on the plane in focus, straight ahead of it.
+        let on_lens = point_on_lens(axes, lens);
+        let d = forward - on_lens / F::splat(self.settings.focal_distance);
+        [o + on_lens, d.normalized()]
+    }
+}
+
 impl Camera for OrthographicCamera {
     fn resolution(&self) -> UVec2 {
         self.resolution
@@ -110,14 +128,11 @@ impl Camera for OrthographicCamera {
     }
 
     fn generate_ray(&self, pixel: UVec2, offset: Vec2, lens: Vec2) -> Ray {
-        let p = pixel.as_vec2() - self.resolution.as_vec2() / 2.0 + offset;
-        let o = self.settings.eye + p.x * self.pixel_x + p.y * self.pixel_y;
-        let Some([lens_x, lens_y]) = self.lens else { return Ray::new(o, self.forward) };
-        // All rays of one film point meet on the plane in focus, straight ahead of it.
-        let lens_point = concentric_disk::sample(lens);
-        let on_lens = lens_point.x * lens_x + lens_point.y * lens_y;
-        let d = self.forward - on_lens / self.settings.focal_distance;
-        Ray::new(o + on_lens, d.normalize())
+        ray_of_one(self, pixel, offset, lens)
+    }
+
+    fn generate_rays(&self, samples: &CameraSamples, rays: &mut [Ray]) {
+        rays_wide(self, samples, rays);
     }
 
     fn describe(&self) -> String {

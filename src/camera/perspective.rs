@@ -2,18 +2,18 @@
 
 use std::sync::Arc;
 
-use glam::{UVec2, Vec2, Vec3, Vec4};
+use glam::{UVec2, Vec2, Vec3};
 
+use super::block::{CameraSamples, WideCamera, ray_of_one, rays_wide};
 use super::error::CameraError;
 use super::placement::{
     Axes, EYE, FOCAL_DISTANCE, HANDEDNESS, Handedness, LENS_RADIUS, LOOK_AT, UP, check_lens,
-    check_resolution, fault,
+    check_resolution, fault, point_on_lens,
 };
 use super::traits::{Camera, Read};
-use crate::geometry::Ray;
-use crate::geometry::four::{Vec3x4, four, rays_x4};
+use crate::geometry::{Ray, Xyz};
 use crate::params::{Fault, Key, Kind, Table};
-use crate::sampling::concentric_disk;
+use crate::simd::{Float, four};
 
 /// How a perspective camera stands and sees. The defaults look from the origin along +z, 90 degrees wide.
 /// Coordinates and the lens radius go up to [`MAX_COORDINATE`](crate::geometry::float::MAX_COORDINATE).
@@ -99,41 +99,6 @@ impl PerspectiveCamera {
     pub fn settings(&self) -> &PerspectiveSettings {
         &self.settings
     }
-
-    /// A pixel's upper left corner, in pixels from the middle of the image.
-    #[inline]
-    fn corner(&self, pixel: UVec2) -> Vec2 {
-        pixel.as_vec2() - self.half_resolution
-    }
-
-    /// The rays of a pinhole, four at a time.
-    fn generate_pinhole_rays(&self, pixel: UVec2, offsets: &[Vec2], rays: &mut [Ray]) {
-        let corner = self.corner(pixel);
-        let [eye, forward, pixel_x, pixel_y] =
-            [self.settings.eye, self.forward, self.pixel_x, self.pixel_y].map(Vec3x4::splat);
-        let direction = |offsets: &[Vec2; 4]| {
-            let x = Vec4::splat(corner.x) + Vec4::from_array(four(|i| offsets[i].x));
-            let y = Vec4::splat(corner.y) + Vec4::from_array(four(|i| offsets[i].y));
-            let through = forward + pixel_x * x + pixel_y * y;
-            through * (1.0 / through.length_squared().sqrt())
-        };
-        let (fours, rest) = offsets.as_chunks::<4>();
-        let (rays_by_four, rays_of_rest) = rays.as_chunks_mut::<4>();
-        // Two times four, so that the processor has something to do while it waits for a root.
-        let (pairs, last) = fours.as_chunks::<2>();
-        let (rays_by_pair, rays_of_last) = rays_by_four.as_chunks_mut::<2>();
-        for ([a, b], rays) in pairs.iter().zip(rays_by_pair) {
-            let (a, b) = (direction(a), direction(b));
-            rays[0] = rays_x4(eye, a, Vec4::INFINITY);
-            rays[1] = rays_x4(eye, b, Vec4::INFINITY);
-        }
-        for (offsets, rays) in last.iter().zip(rays_of_last) {
-            *rays = rays_x4(eye, direction(offsets), Vec4::INFINITY);
-        }
-        for (&offset, ray) in rest.iter().zip(rays_of_rest) {
-            *ray = self.generate_ray(pixel, offset, Vec2::ZERO);
-        }
-    }
 }
 
 impl Camera for PerspectiveCamera {
@@ -147,26 +112,11 @@ impl Camera for PerspectiveCamera {
 
     #[inline]
     fn generate_ray(&self, pixel: UVec2, offset: Vec2, lens: Vec2) -> Ray {
-        let p = self.corner(pixel) + offset;
-        let through = self.forward + p.x * self.pixel_x + p.y * self.pixel_y;
-        let Some([lens_x, lens_y]) = self.lens else {
-            return Ray::new(self.settings.eye, through.normalize());
-        };
-        // All rays of one film point meet on the plane in focus (PBRT 3rd edition, section 6.2.3).
-        let lens_point = concentric_disk::sample(lens);
-        let on_lens = lens_point.x * lens_x + lens_point.y * lens_y;
-        // Divided by the distance of that plane, which may be too large to multiply by.
-        let d = through - on_lens / self.settings.focal_distance;
-        Ray::new(self.settings.eye + on_lens, d.normalize())
+        ray_of_one(self, pixel, offset, lens)
     }
 
-    fn generate_rays(&self, pixel: UVec2, offsets: &[Vec2], lens: &[Vec2], rays: &mut [Ray]) {
-        if self.lens.is_none() {
-            return self.generate_pinhole_rays(pixel, offsets, rays);
-        }
-        for ((ray, &offset), &lens) in rays.iter_mut().zip(offsets).zip(lens) {
-            *ray = self.generate_ray(pixel, offset, lens);
-        }
+    fn generate_rays(&self, samples: &CameraSamples, rays: &mut [Ray]) {
+        rays_wide(self, samples, rays);
     }
 
     fn describe(&self) -> String {
@@ -177,6 +127,24 @@ impl Camera for PerspectiveCamera {
             false => "pinhole".into(),
         };
         format!("{eye} to {look_at}, {fov} degrees, {lens}{}", handedness.note())
+    }
+}
+
+impl WideCamera for PerspectiveCamera {
+    #[inline(always)]
+    fn ray<F: Float>(&self, pixel: [F; 2], offset: [F; 2], lens: [F; 2]) -> [Xyz<F>; 2] {
+        // In pixels from the middle of the image.
+        let x = pixel[0] - F::splat(self.half_resolution.x) + offset[0];
+        let y = pixel[1] - F::splat(self.half_resolution.y) + offset[1];
+        let vectors = [self.settings.eye, self.forward, self.pixel_x, self.pixel_y];
+        let [eye, forward, pixel_x, pixel_y] = four(|i| Xyz::splat(vectors[i]));
+        let through = forward + pixel_x * x + pixel_y * y;
+        let Some(axes) = self.lens else { return [eye, through.normalized()] };
+        // All rays of one film point meet on the plane in focus (PBRT 3rd edition, section 6.2.3).
+        let on_lens = point_on_lens(axes, lens);
+        // Divided by the distance of that plane, which may be too large to multiply by.
+        let d = through - on_lens / F::splat(self.settings.focal_distance);
+        [eye + on_lens, d.normalized()]
     }
 }
 

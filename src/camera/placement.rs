@@ -3,8 +3,11 @@
 use glam::{DVec3, UVec2, Vec3};
 
 use super::error::CameraError;
+use crate::geometry::Xyz;
 use crate::geometry::float::MAX_COORDINATE;
 use crate::params::{Choice, Fault, Key, Table};
+use crate::sampling::concentric_disk;
+use crate::simd::Float;
 
 /// On which side of the view the right of the image lies: how a world's axes were meant.
 ///
@@ -92,6 +95,13 @@ impl Axes {
         };
         Ok(Self { right, up, forward })
     }
+}
+
+/// The point of the lens that a sample value is mapped to, relative to its middle. `axes` are half its width and height.
+#[inline(always)]
+pub(super) fn point_on_lens<F: Float>(axes: [Vec3; 2], u: [F; 2]) -> Xyz<F> {
+    let [x, y] = concentric_disk::sample_wide(u);
+    Xyz::splat(axes[0]) * x + Xyz::splat(axes[1]) * y
 }
 
 /// Checks a lens: its radius and the distance of the plane in focus.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{UVec2, Vec2, Vec3};
 
+use super::CameraSamples;
 use crate::geometry::Ray;
 use crate::geometry::float::MAX_COORDINATE;
 use crate::params::{Fault, Table};
@@ -31,14 +32,14 @@ pub trait Camera: Send + Sync {
     /// `lens` in `[0, 1)²` is a uniform sample for the point on the lens; zero if [`Camera::has_lens`] is false.
     fn generate_ray(&self, pixel: UVec2, offset: Vec2, lens: Vec2) -> Ray;
 
-    /// Fills `rays` with [`Camera::generate_ray`] of one pixel for each offset and lens sample. An override must
-    /// give bit-identical rays.
+    /// Fills `rays` with [`Camera::generate_ray`] of each sample. A camera that is faster for several at a time overrides
+    /// this, with bit-identical rays.
     ///
     /// # Panics
-    /// May panic unless all three slices have the same length.
-    fn generate_rays(&self, pixel: UVec2, offsets: &[Vec2], lens: &[Vec2], rays: &mut [Ray]) {
-        for ((ray, &offset), &lens) in rays.iter_mut().zip(offsets).zip(lens) {
-            *ray = self.generate_ray(pixel, offset, lens);
+    /// May panic unless there are as many rays as samples.
+    fn generate_rays(&self, samples: &CameraSamples, rays: &mut [Ray]) {
+        for (i, ray) in rays.iter_mut().enumerate() {
+            *ray = self.generate_ray(samples.pixel(i), samples.offset(i), samples.lens(i));
         }
     }
 
@@ -61,8 +62,8 @@ impl<C: Camera + ?Sized> Camera for Arc<C> {
         (**self).generate_ray(pixel, offset, lens)
     }
 
-    fn generate_rays(&self, pixel: UVec2, offsets: &[Vec2], lens: &[Vec2], rays: &mut [Ray]) {
-        (**self).generate_rays(pixel, offsets, lens, rays);
+    fn generate_rays(&self, samples: &CameraSamples, rays: &mut [Ray]) {
+        (**self).generate_rays(samples, rays);
     }
 
     fn describe(&self) -> String {

@@ -3,6 +3,8 @@
 use glam::Vec3;
 
 use super::vector::unit;
+use super::xyz::Xyz;
+use crate::simd::Float;
 
 /// A right-handed orthonormal basis (s, t, n), which defines the shading coordinate system: its z
 /// axis is the normal n.
@@ -38,14 +40,8 @@ impl Frame {
     /// method, it stays orthonormal near n = -z.
     #[inline]
     pub fn from_normal(n: Vec3) -> Self {
-        let sign = 1.0_f32.copysign(n.z);
-        let a = -1.0 / (sign + n.z);
-        let b = n.x * n.y * a;
-        Self {
-            s: Vec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x),
-            t: Vec3::new(b, sign + n.y * n.y * a, -n.y),
-            n,
-        }
+        let [s, t] = tangents(n.into());
+        Self { s: s.into(), t: t.into(), n }
     }
 
     /// A frame around the unit vector `n` whose x axis is `tangent` projected onto the plane across
@@ -76,12 +72,59 @@ impl Frame {
     /// Takes a direction from world to shading coordinates.
     #[inline]
     pub fn to_local(&self, v: Vec3) -> Vec3 {
-        Vec3::new(v.dot(self.s), v.dot(self.t), v.dot(self.n))
+        self.axes().to_local(v.into()).into()
     }
 
     /// Takes a direction from shading to world coordinates.
     #[inline]
     pub fn to_world(&self, v: Vec3) -> Vec3 {
+        self.axes().to_world(v.into()).into()
+    }
+
+    #[inline]
+    fn axes(&self) -> Axes<f32> {
+        Axes { s: self.s.into(), t: self.t.into(), n: self.n.into() }
+    }
+}
+
+/// The axes of a [`Frame`], or of one in each lane.
+#[derive(Clone, Copy)]
+pub struct Axes<F> {
+    pub s: Xyz<F>,
+    pub t: Xyz<F>,
+    pub n: Xyz<F>,
+}
+
+impl<F: Float> Axes<F> {
+    /// As [`Frame::from_normal`].
+    #[inline(always)]
+    pub fn from_normal(n: Xyz<F>) -> Self {
+        let [s, t] = tangents(n);
+        Self { s, t, n }
+    }
+
+    /// As [`Frame::to_local`].
+    #[inline(always)]
+    pub fn to_local(self, v: Xyz<F>) -> Xyz<F> {
+        Xyz { x: v.dot(self.s), y: v.dot(self.t), z: v.dot(self.n) }
+    }
+
+    /// As [`Frame::to_world`].
+    #[inline(always)]
+    pub fn to_world(self, v: Xyz<F>) -> Xyz<F> {
         self.s * v.x + self.t * v.y + self.n * v.z
     }
+}
+
+/// The tangents of [`Frame::from_normal`].
+#[inline(always)]
+fn tangents<F: Float>(n: Xyz<F>) -> [Xyz<F>; 2] {
+    let one = F::splat(1.0);
+    let sign = one.copysign(n.z);
+    let a = -one / (sign + n.z);
+    let b = n.x * n.y * a;
+    [
+        Xyz { x: one + sign * n.x * n.x * a, y: sign * b, z: -sign * n.x },
+        Xyz { x: b, y: sign + n.y * n.y * a, z: -n.y },
+    ]
 }

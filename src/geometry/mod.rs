@@ -19,18 +19,20 @@
 //! assert!((lobe::geometry::trig::cos_theta(local) - 0.5_f32.sqrt()).abs() < 1e-6);
 //! ```
 
-pub(crate) mod angle;
 mod bounded;
 pub mod float;
-pub(crate) mod four;
 mod frame;
 mod optics;
 mod ray;
 pub mod trig;
 mod vector;
+mod xyz;
 
+pub(crate) use bounded::Bounded;
 pub use bounded::BoundedPoint;
+pub(crate) use frame::Axes;
 pub use frame::Frame;
 pub use optics::{reflect, refract};
 pub use ray::Ray;
-pub(crate) use vector::{unit, unit_cross};
+pub(crate) use vector::{unit, unit_cross, unit_wide};
+pub(crate) use xyz::Xyz;

@@ -1,5 +1,6 @@
 //! [`Ray`]: a half line or a segment.
 
+use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 /// A half line or a segment: the points `o + t d` for t in `[t_min, t_max]`.
@@ -19,7 +20,7 @@ use glam::Vec3;
 /// assert_eq!(shadow.o + 0.5 * shadow.d, vec3(0.0, 0.0, 4.0));
 /// assert!(shadow.t_max < 1.0);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Ray {
     /// Origin, in scene units.

@@ -8,6 +8,8 @@
 
 use glam::Vec3;
 
+use crate::simd::Float;
+
 /// cos θ; negative below the surface.
 #[inline]
 pub fn cos_theta(w: Vec3) -> f32 {
@@ -91,6 +93,13 @@ pub fn cos_d_phi(wa: Vec3, wb: Vec3) -> f32 {
 /// is on neither side.
 #[inline]
 pub fn same_hemisphere(wa: Vec3, wb: Vec3) -> bool {
+    same_side(wa.z, wb.z)
+}
+
+/// Whether two cosines are both above 0 or both below.
+#[inline(always)]
+pub(crate) fn same_side<F: Float>(a: F, b: F) -> F::Mask {
+    let zero = F::splat(0.0);
     // Signs are compared, because the product of two tiny cosines underflows to zero.
-    (wa.z > 0.0 && wb.z > 0.0) || (wa.z < 0.0 && wb.z < 0.0)
+    (a.gt(zero) & b.gt(zero)) | (a.lt(zero) & b.lt(zero))
 }

@@ -2,24 +2,19 @@
 //!
 //! Names are the letters of the equations: β path throughput divided by path density, f the BSDF, Li and Le
 //! incident and emitted radiance, pdf densities, w the weight of multiple importance sampling. `wave/rules.rs` says
-//! which stages a scene needs, and has the weight of light that a path finds; `wave/vertices.rs` has the last stage
-//! again, for four flat Lambertian hits at a time.
+//! which stages a scene needs, and has the weight of light that a path finds; `wave/scatter.rs` has the stages of a block
+//! of hits.
 
 use std::sync::Arc;
 
-use arrayvec::ArrayVec;
-
 use super::traits::{Estimator, Integrator, Read};
-use super::wave::flat::{BLOCK, Fetched, FlatHits};
-use super::wave::{Path, PathRules, Paths, Vertices, Wave, dimension, power_heuristic};
-use crate::accel::Hit;
-use crate::bxdf::BxdfFlags;
-use crate::geometry::Ray;
-use crate::geometry::four::four;
-use crate::light::{LightChoice, LightHit, LightSample, LightStrategy};
+use super::wave::{PathRules, Paths, Stage, Vertices, Wave, add_escaped, dimension};
+use crate::interaction::BLOCK;
+use crate::light::{LightChoice, LightHit, LightStrategy};
 use crate::params::{Choice, Fault, Key, Kind, Table};
 use crate::sampling::{SampleId, Sampler};
 use crate::scene::Scene;
+use crate::spectrum::Spectrum;
 
 /// Unidirectional path tracing with next-event estimation (PBRT 3rd edition, section 14.5.4): each hit samples
 /// a light, and the path may also hit lights itself. Multiple importance sampling combines both
@@ -129,28 +124,29 @@ impl PathTracer<'_> {
     fn add_emitted(&self, wave: &mut Wave, depth: u32) {
         let Self { scene, rules } = self;
         let Wave { rays, hits, radiance, paths, .. } = wave;
-        let Paths { first, states, by_hit, .. } = paths;
-        let states = if depth == 0 { first } else { states };
-        let (rays, hits) = if depth == 0 { (&*rays, &*hits) } else { (&paths.rays, &paths.hits) };
-        by_hit.partition(scene, hits);
+        let Paths { first, list, by_hit, .. } = paths;
+        let at_camera = depth == 0;
+        let (list, rays, hits) = match at_camera {
+            true => (&*first, &rays[..], &*hits),
+            false => (&*list, list.rays.as_slice(), &paths.hits),
+        };
+        let (states, samples) = (list.states.as_slice(), list.samples.as_slice());
+        by_hit.partition(hits);
         if !rules.infinite.is_empty() {
-            for i in by_hit.escaped.iter().map(|&i| i as usize) {
-                let (path, ray) = (&states[i], &rays[i]);
-                let origin = if depth == 0 { ray.o } else { path.p };
-                radiance[path.sample as usize] += rules.escaped(scene, origin, ray.d, path);
-            }
+            let escaped = &by_hit.escaped;
+            add_escaped(rules, scene, escaped, states, samples, rays, at_camera, radiance);
         }
         if !rules.has_area_lights {
             return;
         }
         for i in by_hit.active.iter().map(|&i| i as usize) {
             let (path, ray, hit) = (&states[i], &rays[i], &hits[i]);
-            if let Some(light) = scene.light_at(hit) {
-                let si = scene.interaction(ray, hit);
+            if let Some(index) = scene.light_at(hit) {
+                let (light, si) = (&scene.lights()[index], scene.interaction(ray, hit));
                 // The surface point, not the offset ray origin: `sample_li` gets the same point.
-                let origin = if depth == 0 { ray.o } else { path.p };
-                let at = LightHit::on_surface(origin, &si);
-                radiance[path.sample as usize] += rules.emitted(scene, light, &at, path);
+                let at = LightHit::on_surface(if at_camera { ray.o } else { path.p }, &si);
+                let weight = rules.weighting(index).weight(path.pdf, light.pdf_li(&at));
+                radiance[samples[i] as usize] += Spectrum::from(path.beta) * light.le(&at) * weight;
             }
         }
     }
@@ -159,13 +155,13 @@ impl PathTracer<'_> {
     #[inline(never)]
     fn draw_samples(&self, sampler: &dyn Sampler, ids: &[SampleId], paths: &mut Paths, depth: u32) {
         let rules = &self.rules;
-        let Paths { first, states, by_hit, values, .. } = paths;
-        let states = if depth == 0 { first } else { states };
+        let Paths { first, list, by_hit, values, .. } = paths;
+        let samples = if depth == 0 { first } else { list }.samples.as_slice();
         if !(rules.samples_direction(depth) || rules.needs_light_u || rules.lights.draws()) {
             return;
         }
         values.ids.clear();
-        values.ids.extend(by_hit.active.iter().map(|&i| ids[states[i as usize].sample as usize]));
+        values.ids.extend(by_hit.active.iter().map(|&i| ids[samples[i as usize] as usize]));
         let first = dimension::of_depth(depth);
         if rules.samples_direction(depth) {
             sampler.fill_2d(&values.ids, first + dimension::DIRECTION, &mut values.direction);
@@ -186,117 +182,42 @@ impl PathTracer<'_> {
     fn scatter(&self, sampler: &dyn Sampler, wave: &mut Wave, depth: u32) {
         let Self { scene, rules } = self;
         let Wave { rays, hits, paths, shadow, arena, counters, .. } = wave;
-        let Paths { first, states, by_hit, values, next_states, next_rays, .. } = paths;
-        let states = if depth == 0 { first } else { states };
-        let (rays, hits) = if depth == 0 { (&*rays, &*hits) } else { (&paths.rays, &paths.hits) };
-        let at = |i: u32| {
-            let i = i as usize;
-            (&states[i], &rays[i], &hits[i])
+        let Paths { first, list, next, by_hit, by_material, values, .. } = paths;
+        let (list, rays, hits) = match depth {
+            0 => (&*first, &rays[..], &hits[..]),
+            _ => (&*list, list.rays.as_slice(), &paths.hits[..]),
         };
-        let mut vertices = Vertices {
+        let active = &by_hit.active[..];
+        by_material.sort(active.len(), scene.material_count(), |vertex| {
+            scene.material_at(&hits[active[vertex] as usize])
+        });
+        let mut vertices = Vertices::new(Stage {
             rules,
             scene,
             sampler,
-            values,
-            depth,
-            shadow,
-            next_states,
-            next_rays,
             arena,
-            rejected: 0,
-        };
-        // Flat Lambertian hits, four at a time, in three short loops: out-of-order execution then overlaps
-        // several iterations of each. `lane` is the index of a hit in its block.
-        let mut fetched = Fetched::new();
-        let mut flat = ArrayVec::<_, { BLOCK / 4 }>::new();
-        let (fours, _) = by_hit.active[..by_hit.flat].as_chunks::<4>();
-        for (block, fours) in fours.chunks(BLOCK / 4).enumerate() {
-            for (lane, &path) in fours.as_flattened().iter().enumerate() {
-                let (_, ray, hit) = at(path);
-                fetched.set(lane, scene, ray, hit);
-            }
-            flat.clear();
-            for (i, paths) in fours.iter().enumerate() {
-                flat.push(FlatHits::new(&fetched, i, four(|lane| at(paths[lane]).0)));
-            }
-            vertices.scatter_flat(BLOCK * block, &flat);
-            for (i, _) in flat.iter().enumerate().filter(|(_, hits)| !hits.sound) {
-                for (vertex, &path) in (BLOCK * block + 4 * i..).zip(&fours[i]) {
-                    scatter_one(&mut vertices, vertex, at(path));
+            depth,
+            states: list.states.as_slice(),
+            samples: list.samples.as_slice(),
+            rays,
+            hits,
+            active,
+            values,
+        });
+        for (material, range) in by_material.runs() {
+            for block in by_material.order()[range].chunks(BLOCK) {
+                vertices.fill(material, block);
+                for slot in 0..rules.lights.slots() {
+                    vertices.sample_lights(slot, shadow);
                 }
+                if rules.samples_direction(depth) {
+                    vertices.sample_directions(next, shadow);
+                }
+                counters.rejected += vertices.take_rejected();
             }
         }
-        // All others, one by one.
-        for (vertex, &path) in by_hit.active.iter().enumerate().skip(4 * fours.len()) {
-            scatter_one(&mut vertices, vertex, at(path));
-        }
-        counters.rejected += vertices.rejected;
+        drop(vertices);
         arena.reset();
-    }
-}
-
-/// Scatters one path at one vertex: light samples, and the next ray.
-#[inline(never)]
-fn scatter_one(vertices: &mut Vertices, vertex: usize, (path, ray, hit): (&Path, &Ray, &Hit)) {
-    let Vertices { rules, scene, sampler, values, depth, arena, .. } = *vertices;
-    let mut si = scene.interaction(ray, hit);
-    let bsdf = scene.bsdf(hit, &mut si, arena);
-    let (wo, beta, all) = (si.wo(), path.beta, BxdfFlags::all());
-
-    // Light samples, each weighted against hitting the light by BSDF sampling: β f Li |cos θ| w / pdf.
-    for slot in 0..rules.lights.slots() {
-        let (index, u) = vertices.choose_light(slot, vertex);
-        let light = &*scene.lights()[index];
-        let Some(LightSample { li, wi, pdf, from }) = light.sample_li(si.p(), u) else { continue };
-        let pdf = pdf * rules.lights.probability(index);
-        let (f, w) = if rules.uses_mis(index) {
-            let (f, scattering_pdf) = bsdf.f_and_pdf(wo, wi, all);
-            (f, power_heuristic(pdf, scattering_pdf))
-        } else {
-            (bsdf.f(wo, wi, all), 1.0)
-        };
-        // No shadow ray for light that is not reflected.
-        if !f.is_black() {
-            let carried = beta * f * li * (bsdf.abs_cos_theta(wi) * w / pdf);
-            let ray = from.map_or_else(|| si.spawn_ray(wi), |from| si.spawn_ray_to(from));
-            vertices.shadow.push(path.sample as usize, ray, carried);
-        }
-    }
-
-    // The next direction: β f |cos θ| / pdf.
-    let sample = rules.samples_direction(depth).then(|| {
-        let uc = match bsdf.uses_uc() {
-            true => sampler.get_1d(values.ids[vertex], dimension::event(depth)),
-            false => f32::NAN,
-        };
-        bsdf.sample_f(wo, uc, values.direction[vertex], all)
-    });
-    vertices.rejected += u64::from(bsdf.rejected());
-    let Some(sample) = sample.flatten() else { return };
-    let mut next = Path {
-        beta: beta * sample.f * (bsdf.abs_cos_theta(sample.wi) / sample.pdf),
-        p: si.p(),
-        // Light sampling cannot find the direction of a delta event: its weight has to be 1.
-        pdf: if sample.is_specular() { f32::INFINITY } else { sample.pdf },
-        eta_scale: path.eta_scale * sample.eta * sample.eta,
-        sample: path.sample,
-    };
-    if next.beta.is_black()
-        || !rules.contributes(depth, sample.is_specular())
-        || (rules.uses_roulette(depth) && !next.survives(values.roulette[vertex]))
-    {
-        return;
-    }
-    let ray = si.spawn_ray(sample.wi);
-    if rules.extends_path(depth) {
-        vertices.next_states.push(next);
-        vertices.next_rays.push(ray);
-    } else {
-        // Only infinite lights are left to be hit: a shadow ray tests whether they are visible.
-        let found = rules.escaped(scene, next.p, sample.wi, &next);
-        if !found.is_black() {
-            vertices.shadow.push(next.sample as usize, ray, found);
-        }
     }
 }
 

@@ -5,12 +5,13 @@ use std::f32::consts::PI;
 use glam::{Vec2, Vec3};
 
 use super::rectangle::Rectangle;
-use super::{BoundingSphere, Light, LightHit, LightSample, LightSamplesX4, one_by_one};
-use crate::geometry::BoundedPoint;
-use crate::geometry::four::Vec3x4;
+use super::block::{Incident, WideLight, end_of_shadow_ray, sample_wide};
+use super::{BoundingSphere, Light, LightHit, LightSample, LightSamples, Receivers};
+use crate::geometry::{BoundedPoint, Xyz, unit_wide};
 use crate::sampling::{Discrete, uniform_triangle};
 use crate::shape::{TriangleMesh, triangle_normal};
-use crate::spectrum::Spectrum;
+use crate::simd::{Float, LaneMask};
+use crate::spectrum::{Bands, Spectrum};
 
 /// A mesh that emits the same radiance in all directions, from its outer side or from both sides (PBRT 3rd
 /// edition, sections 12.5 and 14.2.2).
@@ -68,6 +69,35 @@ impl AreaLight {
         (BoundedPoint::on_triangle(corners, b), if inward { -n } else { n })
     }
 
+    fn on_rectangle(&self) -> Option<OnRectangle<'_>> {
+        let Self { radiance, two_sided, .. } = *self;
+        self.rectangle.as_ref().map(|rectangle| OnRectangle { rectangle, radiance, two_sided })
+    }
+
+    /// [`sample_li`](Light::sample_li) where f32 is not precise enough, or if the light is no rectangle: in f64 by solid
+    /// angle, or else by area.
+    fn sample_precisely(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
+        let on_rectangle = self.rectangle.as_ref().and_then(|rectangle| {
+            let (point, pdf, outside) = rectangle.sample(p, u)?;
+            Some((point, rectangle.normal(), pdf, outside))
+        });
+        let (point, n, pdf) = match on_rectangle {
+            Some((.., false)) if !self.two_sided => return None,
+            Some((point, n, pdf, _)) => (point, n, pdf),
+            None => {
+                let (point, n) = self.sample_area(u);
+                let to_light = point.p - p;
+                let distance = to_light.length();
+                let cos_theta = -n.dot(to_light) / distance;
+                if !self.shines(cos_theta) {
+                    return None;
+                }
+                (point, n, self.pdf_by_area(distance, cos_theta))
+            }
+        };
+        LightSample::from_surface(p, point, n, self.radiance, pdf)
+    }
+
     /// Density over solid angle of a point sampled by area, d² / (cos θ A); infinite at cos θ = 0. `cos_theta`
     /// is the cosine between the outward normal and the direction to the receiver.
     #[inline]
@@ -90,25 +120,13 @@ impl Light for AreaLight {
 
     #[inline]
     fn sample_li(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
-        let on_rectangle = self.rectangle.as_ref().and_then(|rectangle| {
-            let (point, pdf, outside) = rectangle.sample(p, u)?;
-            Some((point, rectangle.normal(), pdf, outside))
-        });
-        let (point, n, pdf) = match on_rectangle {
-            Some((.., false)) if !self.two_sided => return None,
-            Some((point, n, pdf, _)) => (point, n, pdf),
-            None => {
-                let (point, n) = self.sample_area(u);
-                let to_light = point.p - p;
-                let distance = to_light.length();
-                let cos_theta = -n.dot(to_light) / distance;
-                if !self.shines(cos_theta) {
-                    return None;
-                }
-                (point, n, self.pdf_by_area(distance, cos_theta))
+        if let Some(rectangle) = self.on_rectangle() {
+            let (incident, imprecise) = rectangle.incident(p.into(), u.to_array());
+            if !imprecise {
+                return incident.into_sample();
             }
-        };
-        LightSample::from_surface(p, point, n, self.radiance, pdf)
+        }
+        self.sample_precisely(p, u)
     }
 
     #[inline]
@@ -137,12 +155,40 @@ impl Light for AreaLight {
         Some(self.radiance * (sides * PI * self.area as f32))
     }
 
-    fn sample_li_x4(&self, points: &[Vec3x4], u: &[[Vec2; 4]], samples: &mut [LightSamplesX4]) {
-        for ((&p, &u), samples) in points.iter().zip(u).zip(samples) {
-            let on_rectangle = self.rectangle.as_ref();
-            let found = on_rectangle.and_then(|r| r.sample_x4(p, u, self.radiance, self.two_sided));
-            *samples = found.unwrap_or_else(|| one_by_one(p, |i, p| self.sample_li(p, u[i])));
+    fn sample_li_block(&self, receivers: &Receivers, samples: &mut LightSamples) {
+        let precisely = |i: usize, samples: &mut LightSamples| {
+            samples.set(i, self.sample_precisely(receivers.p(i), receivers.u(i)));
+        };
+        match self.on_rectangle() {
+            Some(rectangle) => sample_wide(&rectangle, receivers, samples)
+                .for_each(|i| precisely(i, samples)),
+            None => (0..receivers.len()).for_each(|i| precisely(i, samples)),
         }
+    }
+}
+
+/// An area light that is a rectangle.
+struct OnRectangle<'a> {
+    rectangle: &'a Rectangle,
+    radiance: Spectrum,
+    two_sided: bool,
+}
+
+impl WideLight for OnRectangle<'_> {
+    #[inline(always)]
+    fn incident<F: Float>(&self, p: Xyz<F>, u: [F; 2]) -> (Incident<F>, F::Mask) {
+        let (sample, is_precise) = self.rectangle.sample_wide(p, u);
+        let to_light = sample.point.p - p;
+        let (wi, is_unit) = unit_wide(to_light);
+        let n = Xyz::splat(self.rectangle.normal());
+        let shines = sample.outside | F::Mask::splat(self.two_sided);
+        let incident = Incident {
+            li: Bands::splat(self.radiance),
+            wi,
+            pdf: F::select(shines, sample.pdf, F::splat(0.0)),
+            from: Some(end_of_shadow_ray(to_light, sample.point, n)),
+        };
+        (incident, !(is_precise & is_unit))
     }
 }
 

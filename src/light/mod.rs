@@ -16,6 +16,7 @@
 //! ```
 
 mod area;
+mod block;
 mod distant;
 mod light_sampler;
 mod point;
@@ -25,13 +26,13 @@ mod strategy;
 mod traits;
 
 pub use area::AreaLight;
+pub use block::{Emitted, EscapedRays, LightSamples, Receivers};
 pub use distant::DistantLight;
 pub use light_sampler::{LightChoice, LightSampler};
 pub use point::PointLight;
 pub use sky::SkyLight;
 pub use strategy::LightStrategy;
-pub(crate) use traits::one_by_one;
-pub use traits::{BoundingSphere, Light, LightHit, LightSample, LightSamplesX4, Read};
+pub use traits::{BoundingSphere, Light, LightHit, LightSample, Read};
 
 use crate::params::Kind;
 

@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
-use glam::{BVec4A, Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3};
 
-use super::{BoundingSphere, Light, LightSample, LightSamplesX4, Read};
-use crate::geometry::four::{Vec3x4, four};
+use super::block::{Incident, WideLight, sample_wide};
+use super::{BoundingSphere, Light, LightSample, LightSamples, Read, Receivers};
+use crate::geometry::Xyz;
 use crate::params::{Fault, Key, Kind, Table};
-use crate::spectrum::Spectrum;
+use crate::simd::{Float, LaneMask};
+use crate::spectrum::{Bands, Spectrum};
 
 /// A point that emits the same intensity in all directions (PBRT 3rd edition, section 12.3).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,10 +33,7 @@ impl Light for PointLight {
     /// Irradiance falls with the squared distance, I / d². `None` at the light's own position.
     #[inline]
     fn sample_li(&self, p: Vec3, _u: Vec2) -> Option<LightSample> {
-        let to_light = self.position - p;
-        let distance2 = to_light.length_squared();
-        let (li, wi) = (self.intensity / distance2, to_light / distance2.sqrt());
-        (distance2 > 0.0).then_some(LightSample::from_point(li, wi, 1.0, self.position))
+        self.incident(p.into(), [0.0; 2]).0.into_sample()
     }
 
     /// 4π I.
@@ -42,21 +41,24 @@ impl Light for PointLight {
         Some(self.intensity * (4.0 * std::f32::consts::PI))
     }
 
-    fn sample_li_x4(&self, points: &[Vec3x4], _: &[[Vec2; 4]], samples: &mut [LightSamplesX4]) {
-        let from = Vec3x4::splat(self.position);
-        for (&p, samples) in points.iter().zip(samples) {
-            let to_light = from - p;
-            let distance2 = to_light.length_squared();
-            let falloff = distance2.to_array();
-            *samples = LightSamplesX4 {
-                exists: distance2.cmpgt(Vec4::ZERO),
-                li: four(|i| self.intensity / falloff[i]),
-                wi: to_light.divided_by(distance2.sqrt()),
-                pdf: Vec4::ONE,
-                from,
-                is_near: BVec4A::TRUE,
-            };
-        }
+    fn sample_li_block(&self, receivers: &Receivers, samples: &mut LightSamples) {
+        sample_wide(self, receivers, samples).for_each(drop);
+    }
+}
+
+impl WideLight for PointLight {
+    #[inline(always)]
+    fn incident<F: Float>(&self, p: Xyz<F>, _u: [F; 2]) -> (Incident<F>, F::Mask) {
+        let from = Xyz::splat(self.position);
+        let to_light = from - p;
+        let distance2 = to_light.length_squared();
+        let incident = Incident {
+            li: Bands::splat(self.intensity) / distance2,
+            wi: to_light / distance2.sqrt(),
+            pdf: F::select(distance2.gt(F::splat(0.0)), F::splat(1.0), F::splat(0.0)),
+            from: Some(from),
+        };
+        (incident, F::Mask::splat(false))
     }
 }
 

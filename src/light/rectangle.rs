@@ -1,13 +1,11 @@
 //! [`Rectangle`]: two triangles that form a rectangle, sampled by solid angle.
 
-use glam::{BVec4A, DVec2, DVec3, Vec2, Vec3, Vec4};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
-use super::LightSamplesX4;
-use crate::geometry::BoundedPoint;
 use crate::geometry::float::gamma;
-use crate::geometry::four::{BoundedPointx4, Vec3x4};
-use crate::sampling::{MIN_SOLID_ANGLE, Seen, SeenX4};
-use crate::spectrum::Spectrum;
+use crate::geometry::{Bounded, BoundedPoint, Xyz};
+use crate::sampling::{MIN_SOLID_ANGLE, Seen};
+use crate::simd::Float;
 
 /// Largest displacement of a corner from an exact rectangle, relative to the shorter edge.
 const MAX_SKEW: f64 = 1e-4;
@@ -73,89 +71,75 @@ impl Rectangle {
     /// the solid angle is too small, and points should be sampled by area.
     #[inline]
     pub(super) fn pdf(&self, p: Vec3) -> Option<(f32, bool)> {
-        let (seen, outside) = self.seen_from_x4(Vec3x4::splat(p));
-        if seen.sound.test(0) {
-            return Some((1.0 / seen.solid_angle.x, outside.test(0)));
+        let (seen, _, outside) = self.seen_from_unit(p.into());
+        if seen.is_precise_in_f32() {
+            return Some((1.0 / seen.solid_angle, outside));
         }
         let (seen, outside) = self.seen_from(p)?;
         Some(((1.0 / seen.solid_angle) as f32, outside))
     }
 
     /// A point sampled uniformly by the solid angle that the rectangle subtends at `p`, its density, and
-    /// whether `p` is on the outer side.
-    #[inline]
+    /// whether `p` is on the outer side; `None` as for [`pdf`](Self::pdf). In f64.
     pub(super) fn sample(&self, p: Vec3, u: Vec2) -> Option<(BoundedPoint, f32, bool)> {
-        let (seen, outside) = self.seen_from_x4(Vec3x4::splat(p));
-        if seen.sound.test(0) {
-            let point = self.points_x4(&seen, [u; 4]).first();
-            let point = BoundedPoint { p: point, error: self.error };
-            return Some((point, 1.0 / seen.solid_angle.x, outside.test(0)));
-        }
         let (seen, outside) = self.seen_from(p)?;
-        let moved = seen.sample(u) - seen.start;
-        let point = self.corner + moved.x * self.axes[0] + moved.y * self.axes[1];
+        let [x, y] = seen.sample(u.as_dvec2().to_array());
+        let [x0, y0] = seen.start;
+        let point = self.corner + (x - x0) * self.axes[0] + (y - y0) * self.axes[1];
         let point = BoundedPoint { p: point.as_vec3(), error: self.error };
         Some((point, (1.0 / seen.solid_angle) as f32, outside))
     }
 
-    /// One sampled point for each of four receivers.
+    /// [`sample`](Self::sample) in each lane, and where f32 is precise enough for it.
     #[inline(always)]
-    fn points_x4(&self, seen: &SeenX4, u: [Vec2; 4]) -> Vec3x4 {
-        let [x, y] = seen.sample(u);
-        let [axis_x, axis_y] = self.axes.map(|axis| Vec3x4::splat(axis.as_vec3()));
-        Vec3x4::splat(self.corner.as_vec3()) + axis_x * x + axis_y * y
+    pub(super) fn sample_wide<F: Float>(&self, p: Xyz<F>, u: [F; 2]) -> (OnRectangle<F>, F::Mask) {
+        let (seen, distance, outside) = self.seen_from_unit(p);
+        let ([x, y], [x0, y0]) = (seen.sample(u), seen.start);
+        let p = Xyz::constant(self.corner)
+            + Xyz::constant(self.axes[0]) * ((x - x0) * distance)
+            + Xyz::constant(self.axes[1]) * ((y - y0) * distance);
+        let point = Bounded { p, error: Xyz::splat(self.error) };
+        let pdf = F::splat(1.0) / seen.solid_angle;
+        (OnRectangle { point, pdf, outside }, seen.is_precise_in_f32())
     }
 
     /// The rectangle in coordinates relative to `p`, in f64, and whether `p` is on the outer side.
     #[inline]
-    fn seen_from(&self, p: Vec3) -> Option<(Seen, bool)> {
-        let offset = self.corner - p.as_dvec3();
-        let start = DVec2::new(offset.dot(self.axes[0]), offset.dot(self.axes[1]));
-        let z = offset.dot(self.normal);
-        let seen = Seen::new(start, start + self.size, z);
+    fn seen_from(&self, p: Vec3) -> Option<(Seen<f64>, bool)> {
+        let p = p.as_dvec3();
+        let ([start, end], z) = self.relative_to(Xyz { x: p.x, y: p.y, z: p.z });
+        let seen = Seen::new(start, end, z.abs());
         (seen.solid_angle > MIN_SOLID_ANGLE).then_some((seen, z < 0.0))
     }
 
+    /// The rectangle in coordinates relative to `p`, in units of the distance of its plane; this distance, and whether `p`
+    /// is on the outer side.
     #[inline(always)]
-    fn seen_from_x4(&self, p: Vec3x4) -> (SeenX4, BVec4A) {
-        let offset = Vec3x4::splat(self.corner.as_vec3()) - p;
-        let along = |axis: DVec3| offset.dot(Vec3x4::splat(axis.as_vec3()));
-        let z = along(self.normal);
-        let start = [along(self.axes[0]), along(self.axes[1])];
-        (SeenX4::new(start, self.size.as_vec2(), z.abs()), z.cmplt(Vec4::ZERO))
+    fn seen_from_unit<F: Float>(&self, p: Xyz<F>) -> (Seen<F>, F, F::Mask) {
+        let ([[x0, y0], _], z) = self.relative_to(p);
+        let distance = z.abs();
+        let (x0, y0) = (x0 / distance, y0 / distance);
+        let end =
+            [x0 + F::constant(self.size.x) / distance, y0 + F::constant(self.size.y) / distance];
+        (Seen::new([x0, y0], end, F::splat(1.0)), distance, z.lt(F::splat(0.0)))
     }
 
-    /// Light samples for four points. Only points on the outer side receive light, unless `two_sided`. `None` if
-    /// f32 is not accurate enough for one of them.
+    /// The corner where x and y are least and the opposite one, along the edges, and the height along the normal: all seen
+    /// from `p`.
     #[inline(always)]
-    pub(super) fn sample_x4(
-        &self,
-        p: Vec3x4,
-        u: [Vec2; 4],
-        radiance: Spectrum,
-        two_sided: bool,
-    ) -> Option<LightSamplesX4> {
-        let (seen, outside) = self.seen_from_x4(p);
-        if !seen.sound.all() {
-            return None;
-        }
-        let points = self.points_x4(&seen, u);
-        let to_light = points - p;
-        // The range of lengths in which `unit` needs no rescaling.
-        let length2 = to_light.length_squared();
-        let fine = length2.cmpgt(Vec4::splat(1e-30)) & length2.cmplt(Vec4::splat(1e30));
-        if !fine.all() {
-            return None;
-        }
-        let error = Vec3x4::splat(self.error) + to_light.abs() * Vec4::splat(gamma(8));
-        let point = BoundedPointx4 { p: points, error };
-        Some(LightSamplesX4 {
-            exists: if two_sided { BVec4A::TRUE } else { outside },
-            li: [radiance; 4],
-            wi: to_light.divided_by(length2.sqrt()),
-            pdf: Vec4::ONE / seen.solid_angle,
-            from: point.ray_origins(Vec3x4::splat(self.normal()), -to_light),
-            is_near: BVec4A::TRUE,
-        })
+    fn relative_to<F: Float>(&self, p: Xyz<F>) -> ([[F; 2]; 2], F) {
+        let offset = Xyz::constant(self.corner) - p;
+        let x = offset.dot(Xyz::constant(self.axes[0]));
+        let y = offset.dot(Xyz::constant(self.axes[1]));
+        let end = [x + F::constant(self.size.x), y + F::constant(self.size.y)];
+        ([[x, y], end], offset.dot(Xyz::constant(self.normal)))
     }
+}
+
+/// A point that was sampled in each lane.
+pub(super) struct OnRectangle<F: Float> {
+    pub point: Bounded<F>,
+    pub pdf: F,
+    /// Whether the receiver is on the outer side.
+    pub outside: F::Mask,
 }

@@ -3,13 +3,18 @@
 use std::f32::consts::PI;
 use std::sync::Arc;
 
-use glam::{BVec4A, Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3};
 
-use super::{BoundingSphere, Light, LightHit, LightSample, LightSamplesX4, Read};
-use crate::geometry::four::Vec3x4;
+use super::block::{Incident, WideLight, sample_wide};
+use super::{
+    BoundingSphere, Emitted, EscapedRays, Light, LightHit, LightSample, LightSamples, Read,
+    Receivers,
+};
+use crate::geometry::Xyz;
 use crate::params::{Fault, Key, Kind, Table};
 use crate::sampling::uniform_sphere;
-use crate::spectrum::Spectrum;
+use crate::simd::{Float, LaneMask};
+use crate::spectrum::{Bands, Spectrum};
 
 /// Constant environment light: the same radiance from every direction, like an overcast sky all around, or
 /// like the furnace of a white furnace test.
@@ -44,8 +49,7 @@ impl Light for SkyLight {
     /// Uniform over the sphere.
     #[inline]
     fn sample_li(&self, _p: Vec3, u: Vec2) -> Option<LightSample> {
-        let wi = uniform_sphere::sample(u).normalize();
-        Some(LightSample::distant(self.radiance, wi, uniform_sphere::pdf()))
+        self.incident(Xyz::splat(Vec3::ZERO), u.to_array()).0.into_sample()
     }
 
     #[inline]
@@ -63,18 +67,25 @@ impl Light for SkyLight {
         Some(self.radiance * (4.0 * PI * PI * scene.radius * scene.radius))
     }
 
-    fn sample_li_x4(&self, _: &[Vec3x4], u: &[[Vec2; 4]], samples: &mut [LightSamplesX4]) {
-        for (&u, samples) in u.iter().zip(samples) {
-            let wi = uniform_sphere::sample_x4(u);
-            *samples = LightSamplesX4 {
-                exists: BVec4A::TRUE,
-                li: [self.radiance; 4],
-                wi: wi * (1.0 / wi.length_squared().sqrt()),
-                pdf: Vec4::splat(uniform_sphere::pdf()),
-                from: Vec3x4::ZERO,
-                is_near: BVec4A::FALSE,
-            };
-        }
+    fn sample_li_block(&self, receivers: &Receivers, samples: &mut LightSamples) {
+        sample_wide(self, receivers, samples).for_each(drop);
+    }
+
+    fn escaped_block(&self, _rays: &EscapedRays, emitted: &mut Emitted) {
+        emitted.fill(self.radiance, uniform_sphere::pdf());
+    }
+}
+
+impl WideLight for SkyLight {
+    #[inline(always)]
+    fn incident<F: Float>(&self, _p: Xyz<F>, u: [F; 2]) -> (Incident<F>, F::Mask) {
+        let incident = Incident {
+            li: Bands::splat(self.radiance),
+            wi: uniform_sphere::sample_wide(u).normalized(),
+            pdf: F::splat(uniform_sphere::pdf()),
+            from: None,
+        };
+        (incident, F::Mask::splat(false))
     }
 }
 

@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use glam::{BVec4A, Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3};
 
-use crate::geometry::float::gamma;
-use crate::geometry::four::{Vec3x4, four};
-use crate::geometry::{BoundedPoint, unit};
+use super::block::{Emitted, EscapedRays, LightSamples, Receivers, end_of_shadow_ray};
+use crate::geometry::{BoundedPoint, Xyz, unit};
 use crate::interaction::SurfaceInteraction;
 use crate::params::{Fault, Table};
 use crate::spectrum::Spectrum;
@@ -68,65 +67,10 @@ impl LightSample {
         li: Spectrum,
         pdf: f32,
     ) -> Option<Self> {
-        let to_light = point.p - p;
-        let wi = unit(to_light).filter(|_| pdf > 0.0 && pdf < f32::INFINITY)?;
-        // A shadow ray from `p` misses the point by the rounding of its direction and distance.
-        let error = point.error + gamma(8) * to_light.abs();
-        let from = BoundedPoint { p: point.p, error }.ray_origin(n, -to_light);
+        let to_light = Xyz::from(point.p) - p.into();
+        let wi = unit(to_light.into()).filter(|_| pdf > 0.0 && pdf < f32::INFINITY)?;
+        let from = end_of_shadow_ray(to_light, point.into(), n.into()).into();
         Some(Self { li, wi, pdf, from: Some(from) })
-    }
-}
-
-/// Four of [`LightSample`]. Where `exists` is false the other fields are meaningless.
-#[doc(hidden)]
-#[derive(Clone, Copy)]
-pub struct LightSamplesX4 {
-    pub(crate) exists: BVec4A,
-    pub(crate) li: [Spectrum; 4],
-    pub(crate) wi: Vec3x4,
-    pub(crate) pdf: Vec4,
-    /// End point of the shadow ray, if `is_near`.
-    pub(crate) from: Vec3x4,
-    pub(crate) is_near: BVec4A,
-}
-
-impl LightSamplesX4 {
-    /// Four missing samples.
-    pub(crate) const NONE: Self = Self {
-        exists: BVec4A::FALSE,
-        li: [Spectrum::BLACK; 4],
-        wi: Vec3x4::splat(Vec3::Z),
-        pdf: Vec4::ONE,
-        from: Vec3x4::ZERO,
-        is_near: BVec4A::FALSE,
-    };
-}
-
-/// Samples four points one after the other: `sample(i, p)` for the i-th.
-pub(crate) fn one_by_one(
-    points: Vec3x4,
-    mut sample: impl FnMut(usize, Vec3) -> Option<LightSample>,
-) -> LightSamplesX4 {
-    let p = points.rows(Vec4::ZERO);
-    let samples: [_; 4] = std::array::from_fn(|i| sample(i, p[i].truncate()));
-    let nothing = LightSample { li: Spectrum::BLACK, wi: Vec3::Z, pdf: 1.0, from: None };
-    let (mut exists, mut is_near) = ([false; 4], [false; 4]);
-    let (mut li, mut pdf) = ([Spectrum::BLACK; 4], [1.0; 4]);
-    let (mut wi, mut from) = ([Vec3::Z; 4], [Vec3::ZERO; 4]);
-    for (i, sample) in samples.into_iter().enumerate() {
-        exists[i] = sample.is_some();
-        let sample = sample.unwrap_or(nothing);
-        (li[i], wi[i], pdf[i]) = (sample.li, sample.wi, sample.pdf);
-        is_near[i] = sample.from.is_some();
-        from[i] = sample.from.unwrap_or_default();
-    }
-    LightSamplesX4 {
-        exists: BVec4A::from_array(exists),
-        li,
-        wi: Vec3x4::new(four(|i| &wi[i])),
-        pdf: Vec4::from_array(pdf),
-        from: Vec3x4::new(four(|i| &from[i])),
-        is_near: BVec4A::from_array(is_near),
     }
 }
 
@@ -252,12 +196,20 @@ pub trait Light: Send + Sync {
         None
     }
 
-    /// [`sample_li`](Light::sample_li) for four points at a time. The slices have equal lengths. A kind that
-    /// is faster for four points overrides this, with bit-identical results.
-    #[doc(hidden)]
-    fn sample_li_x4(&self, points: &[Vec3x4], u: &[[Vec2; 4]], samples: &mut [LightSamplesX4]) {
-        for ((&p, u), samples) in points.iter().zip(u).zip(samples) {
-            *samples = one_by_one(p, |i, p| self.sample_li(p, u[i]));
+    /// [`sample_li`](Light::sample_li) for a block of points. A kind that is faster for several at a time overrides this,
+    /// with bit-identical results.
+    fn sample_li_block(&self, receivers: &Receivers, samples: &mut LightSamples) {
+        for i in 0..receivers.len() {
+            samples.set(i, self.sample_li(receivers.p(i), receivers.u(i)));
+        }
+    }
+
+    /// [`le`](Light::le) and [`pdf_li`](Light::pdf_li) for a block of rays that leave the scene. A kind that is faster for
+    /// several at a time overrides this, with bit-identical results.
+    fn escaped_block(&self, rays: &EscapedRays, emitted: &mut Emitted) {
+        for i in 0..rays.len() {
+            let hit = rays.get(i);
+            emitted.set(i, self.le(&hit), self.pdf_li(&hit));
         }
     }
 
@@ -303,8 +255,12 @@ macro_rules! shared {
                 (**self).power(scene)
             }
 
-            fn sample_li_x4(&self, points: &[Vec3x4], u: &[[Vec2; 4]], samples: &mut [LightSamplesX4]) {
-                (**self).sample_li_x4(points, u, samples);
+            fn sample_li_block(&self, receivers: &Receivers, samples: &mut LightSamples) {
+                (**self).sample_li_block(receivers, samples);
+            }
+
+            fn escaped_block(&self, rays: &EscapedRays, emitted: &mut Emitted) {
+                (**self).escaped_block(rays, emitted);
             }
 
             fn into_arc(self) -> Arc<dyn Light> {
@@ -315,83 +271,3 @@ macro_rules! shared {
 }
 
 shared!(<> dyn Light, <L> L);
-
-#[cfg(test)]
-mod tests {
-    use super::super::rectangle::Rectangle;
-    use super::super::{AreaLight, PointLight, SkyLight};
-    use super::*;
-    use crate::shape::TriangleMesh;
-
-    /// Pseudorandom numbers in `[0, 1)`, of 24 bits.
-    fn random_numbers() -> impl FnMut() -> f32 {
-        let mut state = 1_u64;
-        move || {
-            state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
-            (state >> 40) as f32 / (1 << 24) as f32
-        }
-    }
-
-    /// Points around lights of all kinds, on both sides of a lamp, some of them where f32 is not accurate enough. Seen to
-    /// fail with the sides exchanged, with a density that is not the scalar one's, and with the first block's samples for
-    /// the second.
-    #[test]
-    fn four_samples_are_those_of_one_to_the_bit() {
-        let lamp = TriangleMesh::parallelogram(Vec3::new(0.3, 1.0, 0.1), Vec3::X, 2.0 * Vec3::Z);
-        let mut bent = lamp.clone();
-        bent.positions[2].y += 0.5;
-        let l = Spectrum::new(3.0, 2.0, 1.0);
-        let corners = [lamp.corners(0), lamp.corners(1)];
-        let rectangle = Rectangle::new(corners, lamp.geometric_normal(0)).unwrap();
-        let area = |mesh, two_sided| AreaLight::new(mesh, l, two_sided).unwrap();
-        let position = Vec3::new(0.5, 1.0, -0.5);
-        let lights: [&dyn Light; 6] = [
-            &PointLight::new(position, l),
-            &SkyLight::new(l),
-            &area(&lamp, false),
-            &area(&lamp, true),
-            &area(&bent, false),
-            &area(&bent, true),
-        ];
-        let mut next = random_numbers();
-        let (mut compared, mut missing, mut declined) = (0, 0, 0);
-        for trial in 0..10_000 {
-            let scale = 10.0_f32.powf(3.0 * next() - 1.5);
-            let mut around = || scale * (2.0 * next() - 1.0);
-            let mut p =
-                [(); 2].map(|()| [(); 4].map(|()| Vec3::new(around(), 1.0 + around(), around())));
-            // At the point light itself there is no sample.
-            p[1][2] = position;
-            let u = [(); 2].map(|()| [(); 4].map(|()| Vec2::new(next(), next())));
-            let points = p.map(|p| Vec3x4::new(four(|i| &p[i])));
-            for (index, light) in lights.iter().enumerate() {
-                let mut samples = [LightSamplesX4::NONE; 2];
-                light.sample_li_x4(&points, &u, &mut samples);
-                for (block, samples) in samples.into_iter().enumerate() {
-                    let (p, u) = (p[block], u[block]);
-                    // Samples that a kind draws one by one are compared too, but not counted.
-                    let at_once = match index {
-                        0 | 1 => true,
-                        2 | 3 => rectangle.sample_x4(points[block], u, l, true).is_some(),
-                        _ => false,
-                    };
-                    declined += usize::from((index == 2 || index == 3) && !at_once);
-                    let [wi, from] = [samples.wi, samples.from].map(|v| v.rows(samples.pdf));
-                    for i in 0..4 {
-                        let found = samples.exists.test(i).then(|| LightSample {
-                            li: samples.li[i],
-                            wi: wi[i].truncate(),
-                            pdf: wi[i].w,
-                            from: samples.is_near.test(i).then(|| from[i].truncate()),
-                        });
-                        let expected = light.sample_li(p[i], u[i]);
-                        assert_eq!(found, expected, "trial {trial}, light {index} from {}", p[i]);
-                        compared += usize::from(at_once);
-                        missing += usize::from(at_once && found.is_none());
-                    }
-                }
-            }
-        }
-        assert!(compared > 150_000 && missing > 3_000 && declined > 30_000);
-    }
-}

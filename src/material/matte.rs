@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::{Material, Read, bump};
-use crate::bxdf::{Arena, Bsdf, LambertianReflection, OrenNayar};
-use crate::interaction::SurfaceInteraction;
+use crate::bxdf::{Arena, Bsdf, BsdfBlock, LambertianReflection, OrenNayar};
+use crate::interaction::{BLOCK, HitBlock, SurfaceInteraction};
 use crate::params::{Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
 use crate::texture::{Texture, TextureHandle, TextureKey, Textures};
@@ -60,11 +60,36 @@ impl Material for MatteMaterial {
         bsdf
     }
 
-    fn constant_lambertian(&self) -> Option<LambertianReflection> {
-        let kd = self.kd.constant()?;
-        let smooth = self.sigma.as_ref().is_none_or(|sigma| sigma.constant() == Some(0.0));
-        let is_lambertian = smooth && self.bump.is_none() && kd.is_finite();
-        reflectance(kd).filter(|_| is_lambertian).map(LambertianReflection::new)
+    fn scatter_block<'a>(
+        &'a self,
+        hits: &mut HitBlock,
+        arena: &'a Arena,
+        bsdfs: &mut BsdfBlock<'a>,
+    ) {
+        if self.bump.is_some() {
+            return bsdfs.fill(hits, |si| self.compute_scattering(si, arena));
+        }
+        // Reflecting nothing is reflecting black; a sigma of 0 gives the bits of Lambertian reflection.
+        let lambertian = |kd| LambertianReflection::new(reflectance(kd).unwrap_or_default());
+        let rough = |kd, sigma: f32| {
+            OrenNayar::new(reflectance(kd).unwrap_or_default(), sigma.clamp(0.0, 90.0))
+        };
+        let constant_sigma = self.sigma.as_ref().map_or(Some(0.0), |sigma| sigma.constant());
+        match (self.kd.constant(), constant_sigma) {
+            (Some(kd), Some(0.0)) => bsdfs.fill_constant(lambertian(kd)),
+            (Some(kd), Some(sigma)) => bsdfs.fill_constant(rough(kd, sigma)),
+            _ => {
+                let (mut kd, mut sigma) = ([Spectrum::BLACK; BLOCK], [0.0; BLOCK]);
+                self.kd.evaluate_block(hits, &mut kd[..hits.len()]);
+                if constant_sigma == Some(0.0) {
+                    return bsdfs.fill_alike(hits, |i| lambertian(kd[i]));
+                }
+                if let Some(texture) = &self.sigma {
+                    texture.evaluate_block(hits, &mut sigma[..hits.len()]);
+                }
+                bsdfs.fill_alike(hits, |i| rough(kd[i], sigma[i]));
+            }
+        }
     }
 }
 

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::bxdf::{Arena, Bsdf, LambertianReflection};
-use crate::interaction::SurfaceInteraction;
+use crate::bxdf::{Arena, Bsdf, BsdfBlock};
+use crate::interaction::{HitBlock, SurfaceInteraction};
 use crate::params::{Fault, Table};
 use crate::texture::Textures;
 
@@ -37,10 +37,15 @@ pub trait Material: Send + Sync {
     /// Lobes may borrow from the material, or from `arena`, which keeps them until the hit has been shaded.
     fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, arena: &'a Arena) -> Bsdf<'a>;
 
-    /// The lobe, if the material is the same single Lambertian lobe at every hit and does not change the
-    /// shading normal. Such surfaces take a faster path that may skip `compute_scattering`.
-    fn constant_lambertian(&self) -> Option<LambertianReflection> {
-        None
+    /// Fills `bsdfs` with the lobes at a block of hits, as [`compute_scattering`](Self::compute_scattering) returns them for
+    /// each. A material that is faster for several at a time overrides this.
+    fn scatter_block<'a>(
+        &'a self,
+        hits: &mut HitBlock,
+        arena: &'a Arena,
+        bsdfs: &mut BsdfBlock<'a>,
+    ) {
+        bsdfs.fill(hits, |si| self.compute_scattering(si, arena));
     }
 
     /// Wraps the material for a scene, without a second `Arc` around one that is shared.
@@ -66,8 +71,13 @@ macro_rules! shared {
                 (**self).compute_scattering(si, arena)
             }
 
-            fn constant_lambertian(&self) -> Option<LambertianReflection> {
-                (**self).constant_lambertian()
+            fn scatter_block<'a>(
+                &'a self,
+                hits: &mut HitBlock,
+                arena: &'a Arena,
+                bsdfs: &mut BsdfBlock<'a>,
+            ) {
+                (**self).scatter_block(hits, arena, bsdfs);
             }
 
             fn into_arc(self) -> Arc<dyn Material> {

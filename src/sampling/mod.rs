@@ -46,7 +46,7 @@ pub use kind::{Make, SampleSets, SamplerKind};
 pub use sampler::{SampleId, Sampler};
 pub use sobol::SobolSampler;
 pub use stratified::StratifiedSampler;
-pub(crate) use warp::{MIN_SOLID_ANGLE, Seen, SeenX4};
+pub(crate) use warp::{MIN_SOLID_ANGLE, Seen};
 pub use warp::{
     SphericalRectangle, concentric_disk, cosine_hemisphere, uniform_cone, uniform_disk,
     uniform_hemisphere, uniform_sphere, uniform_triangle,

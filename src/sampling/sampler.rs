@@ -20,11 +20,6 @@ impl SampleId {
         Self::runs(ids, |a, b| Self::pixels_differ(a, b) | (a.set ^ b.set))
     }
 
-    /// Splits `ids` into runs of samples in the same pixel.
-    pub(crate) fn pixels(ids: &[Self]) -> impl Iterator<Item = &[Self]> {
-        Self::runs(ids, Self::pixels_differ)
-    }
-
     /// 0 if both are in the same pixel.
     #[inline(always)]
     fn pixels_differ(a: &Self, b: &Self) -> u32 {

@@ -1,12 +1,14 @@
 //! [`SceneBuilder`]: collects shapes, materials and lights, and builds a [`Scene`].
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::sync::Arc;
 
 use super::model::{Scene, Shape};
 use super::settings::Emission;
 use crate::accel::{Accel, InstructionSet};
 use crate::clock::Stopwatch;
+use crate::interaction::LastVertex;
 use crate::light::{AreaLight, Light};
 use crate::material::{Material, MatteMaterial};
 use crate::params::quoted;
@@ -161,6 +163,8 @@ impl SceneBuilder {
         let mut shapes = Vec::with_capacity(self.shapes.len());
         let mut meshes = Vec::with_capacity(self.shapes.len());
         let mut lights = self.lights;
+        let mut materials: Vec<Arc<dyn Material>> = Vec::new();
+        let mut indices = BTreeMap::new();
         for NewShape { name, mesh, material, emission } in self.shapes {
             mesh.check().map_err(|error| SceneError::Mesh(name.clone(), error))?;
             if let Some(NewEmission::Constant(Emission { radiance, .. })) = emission
@@ -168,15 +172,22 @@ impl SceneBuilder {
             {
                 return Err(SceneError::Emission { shape: name, radiance: radiance.to_array() });
             }
-            let material = match material {
-                Some(material) => match self.materials.get(&material) {
-                    Some(found) => found.clone(),
-                    None => return Err(SceneError::UnknownMaterial { shape: name, material }),
-                },
-                None => Arc::new(MatteMaterial::new(Spectrum::BLACK)),
+            let index = indices.entry(material.clone());
+            let material = match (index, material) {
+                (Entry::Occupied(known), _) => *known.get(),
+                (Entry::Vacant(new), material) => {
+                    materials.push(match material {
+                        Some(material) => match self.materials.get(&material) {
+                            Some(found) => found.clone(),
+                            None => {
+                                return Err(SceneError::UnknownMaterial { shape: name, material });
+                            }
+                        },
+                        None => Arc::new(MatteMaterial::new(Spectrum::BLACK)),
+                    });
+                    *new.insert(materials.len() as u32 - 1)
+                }
             };
-            let flat_lambertian =
-                material.constant_lambertian().filter(|_| mesh.normals.is_empty());
             // A mesh without area neither is visible nor emits.
             let light: Option<Arc<dyn Light>> = emission.and_then(|emission| match emission {
                 NewEmission::Constant(Emission { radiance, two_sided }) => {
@@ -188,21 +199,21 @@ impl SceneBuilder {
                 lights.push(light);
                 lights.len() - 1
             });
-            shapes.push(Shape { name, material, light, flat_lambertian });
+            shapes.push(Shape { name, material, light });
             meshes.push(mesh);
         }
         let triangles = meshes.iter().map(|mesh| mesh.indices.len()).sum();
         if triangles > Accel::MAX_TRIANGLES {
             return Err(SceneError::TooManyTriangles(triangles));
         }
-        let is_flat_lambertian = shapes.iter().all(|shape| shape.flat_lambertian.is_some());
         let start = Stopwatch::start();
         let accel = Accel::build_for(self.instruction_set, &meshes);
         Ok(Scene {
+            last_vertices: meshes.iter().map(LastVertex::of).collect(),
             shapes,
             meshes,
             lights,
-            is_flat_lambertian,
+            materials,
             accel,
             build_seconds: start.seconds(),
         })

@@ -2,12 +2,10 @@
 
 use std::sync::Arc;
 
-use glam::Vec3;
-
-use crate::accel::{Accel, Hit};
-use crate::bxdf::{Arena, Bsdf, LambertianReflection};
+use crate::accel::{Accel, Hit, InstructionSet};
+use crate::bxdf::{Arena, Bsdf, BsdfBlock};
 use crate::geometry::Ray;
-use crate::interaction::{SurfaceInteraction, SurfacePlace};
+use crate::interaction::{HitBlock, LastVertex, SurfaceInteraction, SurfacePlace};
 use crate::light::{BoundingSphere, Light};
 use crate::material::Material;
 use crate::shape::TriangleMesh;
@@ -35,9 +33,11 @@ use crate::shape::TriangleMesh;
 pub struct Scene {
     pub(super) shapes: Vec<Shape>,
     pub(super) meshes: Vec<TriangleMesh>,
+    /// Of each mesh.
+    pub(super) last_vertices: Vec<LastVertex>,
     pub(super) lights: Vec<Arc<dyn Light>>,
-    /// Whether every shape has a `flat_lambertian` lobe.
-    pub(super) is_flat_lambertian: bool,
+    /// Those that shapes have, each once.
+    pub(super) materials: Vec<Arc<dyn Material>>,
     pub(super) accel: Accel,
     pub(super) build_seconds: f64,
 }
@@ -45,11 +45,10 @@ pub struct Scene {
 /// A mesh's name, material and light.
 pub(super) struct Shape {
     pub name: String,
-    pub material: Arc<dyn Material>,
+    /// Index of its material.
+    pub material: u32,
     /// Index of its area light, if it emits.
     pub light: Option<usize>,
-    /// The constant lobe, if the shape is flat-shaded and has no other.
-    pub flat_lambertian: Option<LambertianReflection>,
 }
 
 impl Scene {
@@ -93,27 +92,38 @@ impl Scene {
         self.shapes.iter().filter_map(|shape| shape.light)
     }
 
-    /// The constant lobe of the surface at a hit, if it is flat-shaded and has no other; `None` for a miss.
+    /// The instruction set that hits are shaded with: the one that rays are traced with.
     #[inline]
-    pub(crate) fn flat_lambertian(&self, hit: &Hit) -> Option<&LambertianReflection> {
-        self.shapes.get(hit.shape as usize)?.flat_lambertian.as_ref()
+    pub(crate) fn instruction_set(&self) -> InstructionSet {
+        self.accel.instruction_set()
     }
 
-    /// Whether [`Scene::flat_lambertian`] returns a lobe for every hit.
-    #[inline]
-    pub(crate) fn is_flat_lambertian(&self) -> bool {
-        self.is_flat_lambertian
+    /// An empty block of hits on this scene's surfaces.
+    pub(crate) fn hit_block(&self) -> HitBlock<'_> {
+        HitBlock::new(&self.meshes, &self.last_vertices, self.instruction_set())
     }
 
-    /// The vertices of the triangle that was hit.
-    ///
-    /// # Panics
-    /// Like [`Scene::interaction`].
-    #[inline(always)]
-    pub(crate) fn corners(&self, hit: &Hit) -> [&Vec3; 3] {
-        let TriangleMesh { positions, indices, .. } = &self.meshes[hit.shape as usize];
-        let [a, b, c] = indices[hit.triangle as usize];
-        [&positions[a as usize], &positions[b as usize], &positions[c as usize]]
+    /// Index of the material at a hit. Shapes may share one.
+    #[inline]
+    pub(crate) fn material_at(&self, hit: &Hit) -> u32 {
+        self.shapes[hit.shape as usize].material
+    }
+
+    /// Number of materials.
+    pub(crate) fn material_count(&self) -> usize {
+        self.materials.len()
+    }
+
+    /// The lobes at a block of hits on surfaces of one material.
+    #[inline]
+    pub(crate) fn scatter_block<'a>(
+        &'a self,
+        material: u32,
+        hits: &mut HitBlock,
+        arena: &'a Arena,
+        bsdfs: &mut BsdfBlock<'a>,
+    ) {
+        self.materials[material as usize].scatter_block(hits, arena, bsdfs);
     }
 
     /// Wall-clock time to build the acceleration structure, in seconds.
@@ -144,6 +154,6 @@ impl Scene {
         si: &mut SurfaceInteraction,
         arena: &'a Arena,
     ) -> Bsdf<'a> {
-        self.shapes[hit.shape as usize].material.compute_scattering(si, arena)
+        self.materials[self.material_at(hit) as usize].compute_scattering(si, arena)
     }
 }

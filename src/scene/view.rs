@@ -5,11 +5,12 @@ use std::sync::Arc;
 use glam::{UVec2, Vec2, Vec3};
 
 use super::FilmSettings;
-use crate::camera::{Camera, CameraError, PerspectiveCamera, PerspectiveSettings};
+use crate::camera::{Camera, CameraError, CameraSamples, PerspectiveCamera, PerspectiveSettings};
 use crate::film::{Filter, FilterError, FilterSampler};
 use crate::geometry::Ray;
 use crate::image::Window;
 use crate::sampling::SampleId;
+use crate::simd::InstructionSet;
 
 /// Why a view cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -126,6 +127,7 @@ impl View {
     #[inline(never)]
     pub(crate) fn generate_rays(
         &self,
+        instruction_set: InstructionSet,
         ids: &[SampleId],
         film: &mut [Vec2],
         lens: &[Vec2],
@@ -134,13 +136,7 @@ impl View {
         self.filter.sample_all_in_pixel(film);
         // The previous contents are overwritten.
         rays.resize(ids.len(), Ray::new(Vec3::ZERO, Vec3::Z));
-        let (mut rays, mut offsets, mut lens) = (&mut rays[..], &*film, lens);
-        for run in SampleId::pixels(ids) {
-            let (rays_of_run, rays_left) = rays.split_at_mut(run.len());
-            let (offsets_of_run, offsets_left) = offsets.split_at(run.len());
-            let (lens_of_run, lens_left) = lens.split_at(run.len());
-            self.camera.generate_rays(run[0].pixel, offsets_of_run, lens_of_run, rays_of_run);
-            (rays, offsets, lens) = (rays_left, offsets_left, lens_left);
-        }
+        let samples = CameraSamples::new(instruction_set, ids, film, lens);
+        self.camera.generate_rays(&samples, rays);
     }
 }

@@ -4,7 +4,8 @@ use glam::{Affine3A, DMat3, DVec3, Vec2, Vec3};
 
 use super::triangle::triangle_normal;
 use crate::geometry::float::gamma;
-use crate::geometry::{Frame, unit_cross};
+use crate::geometry::{Frame, Xyz, unit_cross};
+use crate::simd::Float;
 
 /// An indexed triangle mesh.
 ///
@@ -64,8 +65,8 @@ impl TriangleMesh {
     /// normals, at unit length. `None` if a corner has no normal, or if they cancel.
     #[inline]
     pub fn shading_normal(&self, triangle: usize, b: [f32; 3]) -> Option<Vec3> {
-        let [n0, n1, n2] = self.corner_normals(triangle)?;
-        (b[0] * n0 + b[1] * n1 + b[2] * n2).try_normalize()
+        let (n, exists) = shading_normal_wide(self.corner_normals(triangle)?.map(Xyz::from), b);
+        exists.then_some(n.into())
     }
 
     /// The texture coordinates of a triangle's corners; (0,0), (1,0), (1,1) if the mesh has none.
@@ -94,7 +95,9 @@ impl TriangleMesh {
     /// ∂n/∂u and ∂n/∂v of a triangle's vertex normals; zero if a corner has no normal, or if the
     /// texture coordinates are degenerate.
     pub fn normal_partials(&self, triangle: usize) -> [Vec3; 2] {
-        self.corner_normals(triangle)
+        let normals = self.corner_normals(triangle);
+        normals
+            .filter(|normals| normals.iter().all(|n| *n != Vec3::ZERO))
             .and_then(|[n0, n1, n2]| self.solve_uv(triangle, n0 - n2, n1 - n2))
             .unwrap_or_default()
     }
@@ -121,14 +124,13 @@ impl TriangleMesh {
         }
     }
 
-    /// The normals of a triangle's corners; `None` if one has none.
+    /// The normals of a triangle's corners; `None` if the mesh has none.
     #[inline]
-    fn corner_normals(&self, triangle: usize) -> Option<[Vec3; 3]> {
+    pub(crate) fn corner_normals(&self, triangle: usize) -> Option<[Vec3; 3]> {
         if self.normals.is_empty() {
             return None;
         }
-        let normals = self.indices[triangle].map(|i| self.normals[i as usize]);
-        normals.iter().all(|n| *n != Vec3::ZERO).then_some(normals)
+        Some(self.indices[triangle].map(|i| self.normals[i as usize]))
     }
 
     /// The derivatives by u and v of a quantity that is linear over a triangle. `d02` and `d12` are
@@ -149,4 +151,18 @@ impl TriangleMesh {
         ];
         derivatives.iter().all(|d| d.is_finite()).then_some(derivatives)
     }
+}
+
+/// [`TriangleMesh::shading_normal`] from the normals of the corners, and where there is one.
+#[inline(always)]
+pub(crate) fn shading_normal_wide<F: Float>(
+    [n0, n1, n2]: [Xyz<F>; 3],
+    [b0, b1, b2]: [F; 3],
+) -> (Xyz<F>, F::Mask) {
+    let zero = F::splat(0.0);
+    let missing = n0.is_zero() | n1.is_zero() | n2.is_zero();
+    let n = n0 * b0 + n1 * b1 + n2 * b2;
+    let reciprocal = F::splat(1.0) / n.length_squared().sqrt();
+    let is_finite = reciprocal.gt(zero) & reciprocal.lt(F::splat(f32::INFINITY));
+    (n * reciprocal, is_finite & !missing)
 }

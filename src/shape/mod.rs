@@ -25,10 +25,11 @@ mod triangle;
 pub use check::MeshError;
 pub use kind::{Load, Read};
 pub use mesh::TriangleMesh;
+pub(crate) use mesh::shading_normal_wide;
 pub use obj::{
     ObjAttribute, ObjError, ObjMesh, ObjProblem, ObjReport, SkippedLines, parse_obj, read_obj,
 };
-pub(crate) use triangle::{FAR, triangle_normals};
+pub(crate) use triangle::{FAR, triangle_normal_wide};
 pub use triangle::{ShearedRay, TriangleHit, triangle_normal};
 
 use crate::params::Kind;

@@ -1,25 +1,18 @@
 //! Triangles: geometric normals, and the watertight ray-triangle test.
 
-use glam::{DVec3, Vec3, Vec3A, Vec3Swizzles, Vec4};
+use glam::{DVec3, Vec3, Vec3A, Vec3Swizzles};
 
-use crate::geometry::Ray;
+use crate::geometry::{Ray, Xyz};
 use crate::geometry::float::gamma;
-use crate::geometry::four::Vec3x4;
+use crate::simd::Float;
 
 /// The unit normal of a triangle, on the side from which its corners are counter-clockwise; zero
 /// for a degenerate triangle.
 #[inline]
 pub fn triangle_normal([p0, p1, p2]: [Vec3; 3]) -> Vec3 {
-    let (e1, e2) = (p1 - p0, p2 - p0);
-    let n = e1.cross(e2);
-    let length2 = n.length_squared();
-    // Nearly parallel edges, with a sine below 1/10, cancel in the cross product: f64 is used. So
-    // it is where squares exceed the range of f32 or lose digits in it.
-    let wide = length2 > 0.01 * e1.length_squared() * e2.length_squared();
-    if wide && length2 > f32::MIN_POSITIVE / f32::EPSILON && length2 < f32::INFINITY {
-        return n / length2.sqrt();
-    }
-    triangle_normal_f64([p0, p1, p2])
+    let corners = [p0, p1, p2];
+    let (n, is_precise) = triangle_normal_wide([p0.into(), p1.into(), p2.into()]);
+    if is_precise { n.into() } else { triangle_normal_f64(corners) }
 }
 
 #[cold]
@@ -28,18 +21,19 @@ fn triangle_normal_f64(corners: [Vec3; 3]) -> Vec3 {
     (p1 - p0).cross(p2 - p0).normalize_or_zero().as_vec3()
 }
 
-/// Four lanes of [`triangle_normal`], and whether f32 is precise enough in all of them: without it,
-/// the normals are not usable.
+/// [`triangle_normal`] in each lane, and where f32 is precise enough. The normals of other lanes are not usable.
 #[inline(always)]
-pub(crate) fn triangle_normals([p0, p1, p2]: [Vec3x4; 3]) -> (Vec3x4, bool) {
+pub(crate) fn triangle_normal_wide<F: Float>([p0, p1, p2]: [Xyz<F>; 3]) -> (Xyz<F>, F::Mask) {
     let (e1, e2) = (p1 - p0, p2 - p0);
     let n = e1.cross(e2);
     let length2 = n.length_squared();
-    let least = Vec4::splat(0.01) * e1.length_squared() * e2.length_squared();
-    let sound = length2.cmpgt(least)
-        & length2.cmpgt(Vec4::splat(f32::MIN_POSITIVE / f32::EPSILON))
-        & length2.cmplt(Vec4::INFINITY);
-    (n.divided_by(length2.sqrt()), sound.all())
+    // Nearly parallel edges, with a sine below 1/10, cancel in the cross product: f64 is used. So
+    // it is where squares exceed the range of f32 or lose digits in it.
+    let wide = length2.gt(F::splat(0.01) * e1.length_squared() * e2.length_squared());
+    let is_precise = wide
+        & length2.gt(F::splat(f32::MIN_POSITIVE / f32::EPSILON))
+        & length2.lt(F::splat(f32::INFINITY));
+    (n / length2.sqrt(), is_precise)
 }
 
 /// A ray prepared for the triangle test: the permutation of axes and the shear that turn its

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::interaction::SurfaceInteraction;
+use crate::interaction::{HitBlock, SurfaceInteraction};
 use crate::spectrum::Spectrum;
 
 /// A function from points on surfaces to values of type `T`: `f32` for roughness or displacement,
@@ -29,6 +29,14 @@ use crate::spectrum::Spectrum;
 pub trait Texture<T>: Send + Sync {
     /// The value at a hit. The interaction computes only the quantities that this method reads.
     fn evaluate(&self, si: &SurfaceInteraction) -> T;
+
+    /// The values at a block of hits, each of which [`evaluate`](Self::evaluate) would return, in their order. `values` is as
+    /// long as there are hits. A kind that is faster for several at a time overrides this.
+    fn evaluate_block(&self, hits: &HitBlock, values: &mut [T]) {
+        for (i, value) in values.iter_mut().enumerate() {
+            *value = self.evaluate(&hits.get(i));
+        }
+    }
 
     /// The value, if it is the same everywhere: it is then stored in place and read without a call.
     fn constant(&self) -> Option<T> {
@@ -65,6 +73,13 @@ impl<T: Copy + Send + Sync + 'static> Texture<T> for TextureHandle<T> {
         }
     }
 
+    fn evaluate_block(&self, hits: &HitBlock, values: &mut [T]) {
+        match self {
+            Self::Constant(value) => values.fill(*value),
+            Self::Shared(texture) => texture.evaluate_block(hits, values),
+        }
+    }
+
     fn constant(&self) -> Option<T> {
         match self {
             Self::Constant(value) => Some(*value),
@@ -89,6 +104,10 @@ impl<T: 'static> Texture<T> for Arc<dyn Texture<T>> {
         (**self).evaluate(si)
     }
 
+    fn evaluate_block(&self, hits: &HitBlock, values: &mut [T]) {
+        (**self).evaluate_block(hits, values);
+    }
+
     fn constant(&self) -> Option<T> {
         (**self).constant()
     }
@@ -101,6 +120,10 @@ impl<T: 'static> Texture<T> for Arc<dyn Texture<T>> {
 impl<T: 'static, X: Texture<T> + 'static> Texture<T> for Arc<X> {
     fn evaluate(&self, si: &SurfaceInteraction) -> T {
         (**self).evaluate(si)
+    }
+
+    fn evaluate_block(&self, hits: &HitBlock, values: &mut [T]) {
+        (**self).evaluate_block(hits, values);
     }
 
     fn constant(&self) -> Option<T> {

@@ -4,7 +4,7 @@ use arrayvec::ArrayVec;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::node::Bvh2Node;
 
-use crate::accel::simd::LANES;
+use crate::simd::LANES;
 use crate::accel::tree::Aabb;
 
 /// Costs of visiting a node and a leaf in the surface area heuristic: about the same, as measured.

@@ -6,7 +6,7 @@ use arrayvec::ArrayVec;
 use glam::Vec3;
 
 use super::collapse::Choices;
-use crate::accel::simd::LANES;
+use crate::simd::LANES;
 use crate::accel::tree::{Aabb, Child, Node};
 
 /// The items of a tree, and how leaves are made of them.

@@ -9,7 +9,7 @@ use super::binary_tree::BinaryTreeBuilder;
 use super::collapse::{Collapse, TOO_MANY};
 use super::layout::{Contents, Root, assign_slots, lay_out};
 use super::partition::MAX_PARTS;
-use crate::accel::simd::LANES;
+use crate::simd::LANES;
 use crate::accel::tree::{Aabb, Node};
 
 /// Most levels of nodes above the treelets, with the root.

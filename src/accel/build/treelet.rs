@@ -10,7 +10,7 @@ use super::duplicates::{Primitive, group_duplicates};
 use super::layout::{Contents, Root, lay_out};
 use super::primitives::Primitives;
 use super::top_level::TOP_LEVELS;
-use crate::accel::simd::LANES;
+use crate::simd::LANES;
 use crate::accel::tree::{Aabb, Leaves, MAX_DEPTH, MAX_TRIANGLES, Node, Triangle};
 
 /// Most levels of nodes in a treelet. If all leaves are equally deep, three levels fewer have room for all triangles

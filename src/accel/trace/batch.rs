@@ -8,7 +8,7 @@ use super::hit::Hit;
 use super::packet::Packet;
 use super::single_ray::{AnyHit, ClosestHit, Found, Start};
 use super::stack::Stack;
-use crate::accel::simd::{Kernel, LANES, Lanes};
+use crate::simd::{Kernel, LANES, Lanes};
 use crate::accel::tree::Bvh;
 use crate::geometry::Ray;
 

@@ -1,7 +1,9 @@
 //! [`Hit`].
 
+use bytemuck::{Pod, Zeroable};
+
 /// Where a ray meets a triangle first. Everything else about the hit is computed from it on demand.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Hit {
     /// Distance in multiples of the length of the ray's direction; infinite if the ray misses.

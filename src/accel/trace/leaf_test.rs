@@ -1,7 +1,7 @@
 //! [`LeafTest`]: one ray against the triangles of a leaf.
 
 use super::watertight::edge_function;
-use crate::accel::simd::{Mask, Vector, splat3};
+use crate::simd::{Mask, Vector, splat3};
 use crate::accel::tree::Leaf;
 use crate::shape::{ShearedRay, TriangleHit};
 

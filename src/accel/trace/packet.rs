@@ -5,7 +5,7 @@ use glam::Vec3A;
 use super::hit::Hit;
 use super::leaf_test::{LeafTest, intersect_triangle};
 use super::watertight::{depth_error_bound, edge_function, sheared};
-use crate::accel::simd::{LANES, Lanes, Mask, Vector, splat3};
+use crate::simd::{LANES, Lanes, Mask, Vector, splat3};
 use crate::accel::tree::{Bvh, Leaf, Node};
 use crate::geometry::Ray;
 use crate::shape::{ShearedRay, TriangleHit};
@@ -41,7 +41,7 @@ impl<'a, L: Lanes> Packet<'a, L> {
     /// The packet; none if the rays do not have the same axis and sign, or are not finite.
     #[inline(always)]
     pub fn new(rays: &'a [Ray; LANES]) -> Option<Self> {
-        let [ox, oy, oz, t_min, dx, dy, dz, t_max] = L::transpose_rays(rays);
+        let [ox, oy, oz, t_min, dx, dy, dz, t_max] = L::transpose(bytemuck::cast_ref(rays));
         let axes = ShearedRay::axes_of(&rays[0]);
         let (o, d) = ([ox, oy, oz], [dx, dy, dz]);
         // The rule of `ShearedRay::axes_of` for all rays at once.

@@ -7,7 +7,7 @@
 use super::leaf_test::{LeafTest, intersect_triangle};
 use super::slabs::Slabs;
 use super::stack::Stack;
-use crate::accel::simd::{Kernel, LANES, Lanes, Mask, Vector};
+use crate::simd::{Kernel, LANES, Lanes, Mask, Vector};
 use crate::accel::tree::{Bvh, Child, Leaf};
 use crate::geometry::Ray;
 use crate::shape::{ShearedRay, TriangleHit};

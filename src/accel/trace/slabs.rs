@@ -2,7 +2,7 @@
 
 use glam::Vec3A;
 
-use crate::accel::simd::{LANES, Lanes, Mask, splat3};
+use crate::simd::{LANES, Lanes, Mask, splat3};
 use crate::accel::tree::Node;
 use crate::geometry::Ray;
 use crate::geometry::float::gamma;

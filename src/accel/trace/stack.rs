@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use crate::accel::simd::{LANES, Lanes, Mask};
+use crate::simd::{LANES, Lanes, Mask};
 use crate::accel::tree::MAX_DEPTH;
 
 /// Worst case: each level leaves all children but one on the stack, and the last push writes a whole vector.

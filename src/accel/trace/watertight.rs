@@ -1,7 +1,7 @@
 //! The steps of the watertight triangle test in all lanes, as [`crate::shape::ShearedRay`] takes them for one triangle
 //! and one ray (Woop, Benthin and Wald 2013).
 
-use crate::accel::simd::{Lanes, Vector};
+use crate::simd::{Lanes, Vector};
 use crate::geometry::float::gamma;
 use crate::shape::FAR;
 

@@ -1,6 +1,6 @@
 //! [`Leaf`]: the triangles of one leaf, as traversal reads them.
 
-use crate::accel::simd::{LANES, LaneIndices, Mask, Vector};
+use crate::simd::{LANES, LaneIndices, Mask, Vector};
 
 /// Words of a leaf besides its vertices and the ids of its triangles.
 pub const HEADER: usize = 7;

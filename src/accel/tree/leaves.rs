@@ -6,7 +6,7 @@ use glam::Vec3;
 use super::leaf::{HEADER, Leaf};
 use super::node::Child;
 use super::triangle::Triangle;
-use crate::accel::simd::LANES;
+use crate::simd::LANES;
 
 /// The triangles of all leaves, leaf after leaf.
 ///
@@ -20,7 +20,7 @@ use crate::accel::simd::LANES;
 /// A vector loaded from x, y or z has, in lanes above the leaf's own vertices, the words that come next. No corner
 /// refers to those.
 ///
-/// [`LaneIndices`]: crate::accel::simd::LaneIndices
+/// [`LaneIndices`]: crate::simd::LaneIndices
 #[derive(Clone, Debug)]
 pub struct Leaves {
     words: Vec<f32>,

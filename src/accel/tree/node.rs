@@ -1,7 +1,7 @@
 //! [`Node`], and the encoding of its children.
 
 use super::aabb::Aabb;
-use crate::accel::simd::LANES;
+use crate::simd::LANES;
 
 /// The boxes of up to sixteen children, and references to them.
 ///

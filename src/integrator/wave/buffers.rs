@@ -51,7 +51,7 @@ impl<'a> Wave<'a> {
             + size_of::<Ray>()
             + size_of::<Hit>()
             + size_of::<Spectrum>();
-        samples * (camera_ray + Paths::BYTES + shadow_rays * ShadowRays::BYTES)
+        samples * camera_ray + Paths::bytes(samples) + ShadowRays::bytes(samples * shadow_rays)
     }
 
     /// Whether the render was cancelled or its time is over. For integrators whose work on a wave has no bound: once it
@@ -97,7 +97,7 @@ impl<'a> Wave<'a> {
             lens.clear();
             lens.resize(ids.len(), Vec2::ZERO);
         }
-        view.generate_rays(ids, film, lens, rays);
+        view.generate_rays(scene.instruction_set(), ids, film, lens, rays);
         radiance.clear();
         radiance.resize(rays.len(), Spectrum::BLACK);
         for (ray, radiance) in rays.iter_mut().zip(&mut *radiance) {

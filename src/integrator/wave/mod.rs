@@ -1,19 +1,20 @@
 //! Buffers and shared stages of integrators: waves of samples, and the paths that start with them.
 
 mod buffers;
-mod compact;
+mod by_material;
 mod counters;
 pub mod dimension;
-pub mod flat;
-mod flat_lights;
+mod escape;
 mod paths;
+mod pushed;
 mod rules;
+mod scatter;
 mod shadow_rays;
-mod vertices;
 
 pub use buffers::Wave;
 pub use counters::Counters;
-pub use paths::{Path, Paths};
-pub use rules::{PathRules, power_heuristic};
+pub use escape::add_escaped;
+pub use paths::Paths;
+pub use rules::PathRules;
+pub use scatter::{Stage, Vertices};
 pub use shadow_rays::ShadowRays;
-pub use vertices::Vertices;

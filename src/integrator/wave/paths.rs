@@ -1,27 +1,56 @@
 //! [`Paths`]: the paths of a wave, and the buffers of the stages that process them.
 
+use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3};
 
+use super::by_material::ByMaterial;
+use super::pushed::Pushed;
 use crate::accel::Hit;
-use crate::geometry::Ray;
+use crate::geometry::{Ray, Xyz};
 use crate::sampling::SampleId;
 use crate::scene::Scene;
-use crate::spectrum::Spectrum;
+use crate::simd::Block;
+use crate::spectrum::Bands;
 
-/// The state of a path, beside its ray.
-#[derive(Clone, Copy)]
+/// The state of a path, beside its ray and its sample.
+#[derive(Clone, Copy, Default, Pod, Zeroable)]
+#[repr(C)]
 pub struct Path {
     /// β: path throughput divided by path density.
-    pub beta: Spectrum,
-    /// The surface point that its ray leaves, before the origin was offset. Not used for camera rays.
-    pub p: Vec3,
+    pub beta: [f32; 3],
     /// Density over solid angle of the ray's direction; infinite for camera rays and delta events.
     pub pdf: f32,
+    /// The surface point that its ray leaves, before the origin was offset. Not used for camera rays.
+    pub p: Vec3,
     /// Product of η² over all interfaces crossed. Refraction scales radiance by 1/η². Russian roulette undoes
     /// this, since the factor is undone when the path leaves the medium again.
     pub eta_scale: f32,
-    /// Index of its sample in the wave.
-    pub sample: u32,
+}
+
+/// The states of paths in the lanes of vectors.
+#[derive(Clone, Copy)]
+pub struct PathsWide<F> {
+    pub beta: Bands<F>,
+    pub pdf: F,
+    pub p: Xyz<F>,
+    pub eta_scale: F,
+}
+
+impl<F: Block> PathsWide<F> {
+    /// Gathers the states that `path` returns for each lane.
+    #[inline(always)]
+    pub fn gather<'a>(path: impl Fn(usize) -> &'a Path) -> Self {
+        let [r, g, b, pdf, x, y, z, eta_scale] =
+            F::gather(|lane| bytemuck::cast_ref::<Path, [f32; 8]>(path(lane)));
+        Self { beta: Bands([r, g, b]), pdf, p: Xyz { x, y, z }, eta_scale }
+    }
+
+    /// Writes the states of all lanes.
+    #[inline(always)]
+    pub fn scatter(self, to: &mut [Path]) {
+        let Self { beta: Bands([r, g, b]), pdf, p: Xyz { x, y, z }, eta_scale } = self;
+        F::scatter([r, g, b, pdf, x, y, z, eta_scale], bytemuck::cast_slice_mut(to));
+    }
 }
 
 /// Sample values of the active paths, one buffer per use. Buffers that a scene does not need stay empty.
@@ -34,45 +63,77 @@ pub struct Values {
     pub roulette: Vec<f32>,
 }
 
-/// The paths of a wave. Element i of `states`, `rays` and `hits` belongs to the same path. At depth 0 the
-/// states are `first`, and rays and hits are those of the wave.
+/// The paths at one depth. Element i of `states`, `samples` and `rays` belongs to the same path.
+#[derive(Default)]
+pub struct PathList {
+    pub states: Pushed<Path>,
+    /// Indices of samples in the wave.
+    pub samples: Pushed<u32>,
+    pub rays: Pushed<Ray>,
+}
+
+impl PathList {
+    const fn bytes(paths: usize) -> usize {
+        Pushed::<Path>::bytes(paths) + Pushed::<u32>::bytes(paths) + Pushed::<Ray>::bytes(paths)
+    }
+
+    fn with_capacity(paths: usize) -> Self {
+        Self {
+            states: Pushed::with_capacity(paths),
+            samples: Pushed::with_capacity(paths),
+            rays: Pushed::with_capacity(paths),
+        }
+    }
+
+    fn clear(&mut self) {
+        self.states.clear();
+        self.samples.clear();
+        self.rays.clear();
+    }
+}
+
+/// The paths of a wave.
 #[derive(Default)]
 pub struct Paths {
-    /// Initial states of camera paths, the same in all waves.
-    pub first: Vec<Path>,
-    pub states: Vec<Path>,
-    pub rays: Vec<Ray>,
+    /// Paths that start at the camera, the same in all waves: at least as many as the wave has. Their rays and hits are
+    /// those of the wave.
+    pub first: PathList,
+    /// The paths at the present depth, beyond 0.
+    pub list: PathList,
+    /// Closest hits of their rays.
     pub hits: Vec<Hit>,
+    /// The paths at the next depth.
+    pub next: PathList,
     pub by_hit: PathsByHit,
+    pub by_material: ByMaterial,
     pub values: Values,
-    /// `states` and `rays` at the next depth.
-    pub next_states: Vec<Path>,
-    pub next_rays: Vec<Ray>,
 }
 
 impl Paths {
-    /// Bytes of all buffers for each path.
-    pub const BYTES: usize = 3 * size_of::<Path>()
-        + 2 * size_of::<Ray>()
-        + size_of::<Hit>()
-        + 3 * size_of::<u32>()
-        + size_of::<SampleId>()
-        + 2 * size_of::<Vec2>()
-        + 2 * size_of::<f32>();
+    /// Bytes of all buffers for that many paths.
+    pub const fn bytes(paths: usize) -> usize {
+        3 * PathList::bytes(paths)
+            + paths
+                * (size_of::<Hit>()
+                    + 2 * size_of::<u32>()
+                    + ByMaterial::BYTES
+                    + size_of::<SampleId>()
+                    + 2 * size_of::<Vec2>()
+                    + 2 * size_of::<f32>())
+    }
 
     /// Buffers with capacity for `paths` paths.
     pub fn with_capacity(paths: usize) -> Self {
         Self {
-            first: Vec::with_capacity(paths),
-            states: Vec::with_capacity(paths),
-            rays: Vec::with_capacity(paths),
+            first: PathList::with_capacity(paths),
+            list: PathList::with_capacity(paths),
             hits: Vec::with_capacity(paths),
+            next: PathList::with_capacity(paths),
             by_hit: PathsByHit {
                 active: Vec::with_capacity(paths),
-                flat: 0,
-                others: Vec::with_capacity(paths),
                 escaped: Vec::with_capacity(paths),
             },
+            by_material: ByMaterial::with_capacity(paths),
             values: Values {
                 ids: Vec::with_capacity(paths),
                 direction: Vec::with_capacity(paths),
@@ -80,54 +141,48 @@ impl Paths {
                 choice: Vec::with_capacity(paths),
                 roulette: Vec::with_capacity(paths),
             },
-            next_states: Vec::with_capacity(paths),
-            next_rays: Vec::with_capacity(paths),
         }
     }
 
-    /// Starts `rays` paths at the camera.
+    /// Starts as many paths at the camera as there are rays.
     pub fn start(&mut self, rays: usize) {
-        let new = self.first.len()..rays;
-        self.first.extend(new.map(|sample| Path {
-            beta: Spectrum::WHITE,
-            p: Vec3::ZERO,
-            pdf: f32::INFINITY,
-            eta_scale: 1.0,
-            sample: sample as u32,
-        }));
+        for sample in self.first.samples.as_slice().len()..rays {
+            self.first.samples.push(sample as u32);
+            self.first.states.push(Path {
+                beta: [1.0; 3],
+                pdf: f32::INFINITY,
+                p: Vec3::ZERO,
+                eta_scale: 1.0,
+            });
+        }
     }
 
     /// Moves to the next depth: intersects the next rays, and returns their number.
     pub fn trace(&mut self, scene: &Scene) -> u64 {
-        std::mem::swap(&mut self.states, &mut self.next_states);
-        std::mem::swap(&mut self.rays, &mut self.next_rays);
-        self.next_states.clear();
-        self.next_rays.clear();
+        std::mem::swap(&mut self.list, &mut self.next);
+        self.next.clear();
+        let rays = self.list.rays.as_slice();
         // The previous contents are overwritten.
-        self.hits.resize(self.rays.len(), Hit::MISS);
-        scene.accel().intersect(&self.rays, &mut self.hits);
-        self.rays.len() as u64
+        self.hits.resize(rays.len(), Hit::MISS);
+        scene.accel().intersect(rays, &mut self.hits);
+        rays.len() as u64
     }
 }
 
-/// Indices of paths, partitioned by what their rays hit.
+/// Indices of paths, partitioned by whether their rays hit anything.
 #[derive(Default)]
 pub struct PathsByHit {
-    /// Paths whose rays hit a surface, flat Lambertian surfaces first: see [`Scene::flat_lambertian`].
+    /// Paths whose rays hit a surface.
     pub active: Vec<u32>,
-    /// Number of elements of `active` that are on flat Lambertian surfaces.
-    pub flat: usize,
     /// Paths whose rays hit nothing.
     pub escaped: Vec<u32>,
-    /// Buffer for paths on all other surfaces.
-    others: Vec<u32>,
 }
 
 impl PathsByHit {
     /// Partitions all paths by their hits.
     #[inline(never)]
-    pub fn partition(&mut self, scene: &Scene, hits: &[Hit]) {
-        let Self { active, others, escaped, .. } = self;
+    pub fn partition(&mut self, hits: &[Hit]) {
+        let Self { active, escaped } = self;
         active.resize(hits.len(), 0);
         escaped.resize(hits.len(), 0);
         // Branch-free: each index is written to both lists, and only one list grows. A branch would be
@@ -140,29 +195,5 @@ impl PathsByHit {
         }
         active.truncate(found);
         escaped.truncate(hits.len() - found);
-        self.flat = found;
-        if !scene.is_flat_lambertian() {
-            others.clear();
-            others.extend(
-                active.iter().filter(|&&i| scene.flat_lambertian(&hits[i as usize]).is_none()),
-            );
-            active.retain(|&i| scene.flat_lambertian(&hits[i as usize]).is_some());
-            self.flat = active.len();
-            active.extend_from_slice(others);
-        }
-    }
-}
-
-impl Path {
-    /// Russian roulette with `u` in `[0, 1)`: whether the path continues. If so, its beta is divided by the
-    /// probability of that (PBRT 3rd edition, section 14.5.4).
-    #[inline]
-    pub fn survives(&mut self, u: f32) -> bool {
-        let survival = (self.beta * self.eta_scale).max_component().min(1.0);
-        if u >= survival {
-            return false;
-        }
-        self.beta = self.beta / survival;
-        true
     }
 }

@@ -4,12 +4,9 @@
 //! with a single light, none is selected; and at the last vertex no direction is sampled unless light found there
 //! counts.
 
-use glam::Vec3;
-
-use super::paths::Path;
-use crate::light::{LightChoice, LightHit, LightSampler, LightStrategy};
+use crate::light::{LightChoice, LightSampler, LightStrategy};
 use crate::scene::Scene;
-use crate::spectrum::Spectrum;
+use crate::simd::Float;
 
 /// An integrator's settings, and what follows from them for the scene's lights.
 pub struct PathRules {
@@ -100,35 +97,45 @@ impl PathRules {
         self.counts_bsdf_samples && self.visible[light]
     }
 
-    /// Weighted radiance of a path that leaves the scene from `origin` along `wi`.
+    /// Whether the paths that find this light are weighted against light sampling, and the probability of sampling it.
     #[inline]
-    pub fn escaped(&self, scene: &Scene, origin: Vec3, wi: Vec3, path: &Path) -> Spectrum {
-        let at = LightHit::outside(origin, wi);
-        self.infinite.iter().map(|&light| self.emitted(scene, light, &at, path)).sum()
+    pub fn weighting(&self, light: usize) -> Weighting {
+        let probability = self.lights.probability(light);
+        Weighting { counts_bsdf_samples: self.counts_bsdf_samples, probability }
     }
+}
 
-    /// Weighted radiance of a path that ends at the light with this index.
-    #[inline]
-    pub fn emitted(&self, scene: &Scene, index: usize, at: &LightHit, path: &Path) -> Spectrum {
-        let light = &*scene.lights()[index];
-        let probability = self.lights.probability(index);
+/// How light that paths find is weighted.
+#[derive(Clone, Copy)]
+pub struct Weighting {
+    counts_bsdf_samples: bool,
+    probability: f32,
+}
+
+impl Weighting {
+    /// The weight of light that a path finds, from the densities with which the path and the light sample the direction.
+    #[inline(always)]
+    pub fn weight<F: Float>(self, path_pdf: F, light_pdf: F) -> F {
+        let found_only = path_pdf.eq(F::splat(f32::INFINITY));
         // Light sampling cannot find paths from the camera or from delta events.
-        let weight = if path.pdf == f32::INFINITY || probability == 0.0 {
-            1.0
+        let (zero, one) = (F::splat(0.0), F::splat(1.0));
+        if self.probability == 0.0 {
+            one
         } else if self.counts_bsdf_samples {
-            power_heuristic(path.pdf, probability * light.pdf_li(at))
+            let weight = power_heuristic(path_pdf, F::splat(self.probability) * light_pdf);
+            F::select(found_only, one, weight)
         } else {
-            return Spectrum::BLACK;
-        };
-        path.beta * light.le(at) * weight
+            F::select(found_only, one, zero)
+        }
     }
 }
 
 /// Power heuristic with exponent 2: weight of a sample drawn with density `a`, where another technique has the
 /// density `b` for it (Veach 1997, section 9.2.4).
-#[inline]
-pub fn power_heuristic(a: f32, b: f32) -> f32 {
+#[inline(always)]
+pub fn power_heuristic<F: Float>(a: F, b: F) -> F {
     // As a ratio, since squares of densities overflow f32.
     let ratio = b / a;
-    1.0 / (1.0 + ratio * ratio)
+    let one = F::splat(1.0);
+    one / (one + ratio * ratio)
 }

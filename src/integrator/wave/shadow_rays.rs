@@ -1,7 +1,6 @@
 //! [`ShadowRays`]: rays from surfaces to lights.
 
-use super::compact::push_x4;
-use super::paths::Path;
+use super::pushed::Pushed;
 use crate::geometry::Ray;
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
@@ -9,22 +8,27 @@ use crate::spectrum::Spectrum;
 /// Shadow rays, each with the radiance that it adds to a sample if it is not occluded.
 #[derive(Default)]
 pub struct ShadowRays {
-    rays: Vec<Ray>,
-    samples: Vec<u32>,
-    carried: Vec<Spectrum>,
+    rays: Pushed<Ray>,
+    samples: Pushed<u32>,
+    /// Followed by a number without a meaning.
+    carried: Pushed<[f32; 4]>,
     occluded: Vec<bool>,
 }
 
 impl ShadowRays {
-    /// Bytes of all buffers for each ray.
-    pub(super) const BYTES: usize =
-        size_of::<Ray>() + size_of::<u32>() + size_of::<Spectrum>() + size_of::<bool>();
+    /// Bytes of all buffers for that many rays.
+    pub(super) const fn bytes(rays: usize) -> usize {
+        Pushed::<Ray>::bytes(rays)
+            + Pushed::<u32>::bytes(rays)
+            + Pushed::<[f32; 4]>::bytes(rays)
+            + rays * size_of::<bool>()
+    }
 
     pub(super) fn with_capacity(rays: usize) -> Self {
         Self {
-            rays: Vec::with_capacity(rays),
-            samples: Vec::with_capacity(rays),
-            carried: Vec::with_capacity(rays),
+            rays: Pushed::with_capacity(rays),
+            samples: Pushed::with_capacity(rays),
+            carried: Pushed::with_capacity(rays),
             occluded: Vec::with_capacity(rays),
         }
     }
@@ -32,35 +36,39 @@ impl ShadowRays {
     /// Adds a ray for the sample with this index in the wave.
     #[inline]
     pub fn push(&mut self, sample: usize, ray: Ray, radiance: Spectrum) {
+        let [r, g, b] = radiance.to_array();
         self.rays.push(ray);
         self.samples.push(sample as u32);
-        self.carried.push(radiance);
+        self.carried.push([r, g, b, 0.0]);
     }
 
-    /// Adds the rays of those of four paths whose bits in the mask are set.
+    /// Adds those rays whose bits in the mask are set.
     #[inline(always)]
-    pub(super) fn push_x4(
+    pub(super) fn push_some(
         &mut self,
         mask: u32,
-        paths: [&Path; 4],
-        rays: &[Ray; 4],
-        radiance: &[Spectrum; 4],
+        samples: &[u32],
+        rays: &[[f32; 8]],
+        carried: &[[f32; 4]],
     ) {
-        push_x4(&mut self.rays, mask, rays);
-        push_x4(&mut self.samples, mask, &paths.map(|path| path.sample));
-        push_x4(&mut self.carried, mask, radiance);
+        self.rays.push_some(mask, bytemuck::cast_slice(rays));
+        self.samples.push_some(mask, samples);
+        self.carried.push_some(mask, carried);
     }
 
     /// Traces all rays, adds the radiance of those that are not occluded, and returns the number of rays.
     pub fn trace(&mut self, scene: &Scene, radiance: &mut [Spectrum]) -> u64 {
-        self.occluded.resize(self.rays.len(), false);
-        scene.accel().occluded(&self.rays, &mut self.occluded);
-        for ((&sample, &carried), &occluded) in
-            self.samples.iter().zip(&self.carried).zip(&self.occluded)
+        let rays = self.rays.as_slice();
+        self.occluded.resize(rays.len(), false);
+        scene.accel().occluded(rays, &mut self.occluded);
+        let count = rays.len() as u64;
+        let carried = self.carried.as_slice();
+        for ((&sample, &[r, g, b, _]), &occluded) in
+            self.samples.as_slice().iter().zip(carried).zip(&self.occluded)
         {
-            radiance[sample as usize] += if occluded { Spectrum::BLACK } else { carried };
+            let carried = if occluded { Spectrum::BLACK } else { Spectrum::new(r, g, b) };
+            radiance[sample as usize] += carried;
         }
-        let count = self.rays.len() as u64;
         self.rays.clear();
         self.samples.clear();
         self.carried.clear();

@@ -7,47 +7,39 @@
 
 use std::f32::consts::{FRAC_1_PI, FRAC_PI_4};
 
-use glam::{Vec2, Vec2Swizzles, Vec4};
+use glam::Vec2;
 
-use crate::geometry::angle::{eighth_turn, eighth_turn_x4};
-use crate::geometry::four::four;
+use crate::simd::{Float, eighth_turn};
 
 /// A point of the unit disk.
 #[inline]
 pub fn sample(u: Vec2) -> Vec2 {
-    let (r, direction) = polar(u);
-    r * direction
+    sample_wide(u.to_array()).into()
+}
+
+/// [`sample`] in each lane.
+#[inline(always)]
+pub(crate) fn sample_wide<F: Float>(u: [F; 2]) -> [F; 2] {
+    let (r, [x, y]) = polar(u);
+    [r * x, r * y]
 }
 
 /// [`sample`] in polar form: the signed radius, and the unit vector that it multiplies.
 ///
 /// The radius is exact for u with 24 bits, as samplers give them. It is ±1 only at the border of
 /// the square.
-#[inline]
-pub(super) fn polar(u: Vec2) -> (f32, Vec2) {
-    let square = 2.0 * u - Vec2::ONE;
-    if square.x.abs() > square.y.abs() {
-        (square.x, eighth_turn(square.y / square.x))
-    } else if square.y != 0.0 {
-        // φ = π/2 - π/4 (a/b): sine and cosine are exchanged.
-        (square.y, eighth_turn(square.x / square.y).yx())
-    } else {
-        (0.0, Vec2::X)
-    }
-}
-
-/// Four lanes of [`polar`].
 #[inline(always)]
-pub(super) fn polar_x4(u: [Vec2; 4]) -> (Vec4, [Vec4; 2]) {
-    let x = 2.0 * Vec4::from_array(four(|i| u[i].x)) - Vec4::ONE;
-    let y = 2.0 * Vec4::from_array(four(|i| u[i].y)) - Vec4::ONE;
-    let x_larger = x.abs().cmpgt(y.abs());
-    let r = Vec4::select(x_larger, x, y);
-    let center = r.cmpeq(Vec4::ZERO);
-    let share = Vec4::select(x_larger, y, x) / Vec4::select(center, Vec4::ONE, r);
-    let [cos, sin] = eighth_turn_x4(share);
-    let swap = x_larger | center;
-    (r, [Vec4::select(swap, cos, sin), Vec4::select(swap, sin, cos)])
+pub(super) fn polar<F: Float>([u0, u1]: [F; 2]) -> (F, [F; 2]) {
+    let (one, two) = (F::splat(1.0), F::splat(2.0));
+    let (x, y) = (two * u0 - one, two * u1 - one);
+    let x_larger = x.abs().gt(y.abs());
+    let r = F::select(x_larger, x, y);
+    let center = r.eq(F::splat(0.0));
+    let share = F::select(x_larger, y, x) / F::select(center, one, r);
+    let [cos, sin] = eighth_turn(share);
+    // Elsewhere φ = π/2 - π/4 (a/b): sine and cosine are exchanged.
+    let along_x = x_larger | center;
+    (r, [F::select(along_x, cos, sin), F::select(along_x, sin, cos)])
 }
 
 /// Density over area: 1/π on the disk.

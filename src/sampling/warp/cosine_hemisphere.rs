@@ -10,28 +10,35 @@ use std::f32::consts::FRAC_1_PI;
 use glam::{Vec2, Vec3};
 
 use super::concentric_disk;
-use crate::geometry::four::Vec3x4;
+use crate::geometry::Xyz;
+use crate::simd::Float;
 
 /// A unit vector with z ≥ 0. z = 0 only for u on the border of the square.
 #[inline]
 pub fn sample(u: Vec2) -> Vec3 {
-    let (r, direction) = concentric_disk::polar(u);
-    // (1 - r)(1 + r) rather than 1 - x² - y²: it keeps the precision of grazing directions, and z
-    // above 0.
-    (r * direction).extend(((1.0 - r) * (1.0 + r)).sqrt())
+    sample_wide(u.to_array()).into()
 }
 
-/// Four lanes of [`sample`].
+/// [`sample`] in each lane.
 #[inline(always)]
-pub(crate) fn sample_x4(u: [Vec2; 4]) -> Vec3x4 {
-    let (r, [x, y]) = concentric_disk::polar_x4(u);
-    Vec3x4 { x: r * x, y: r * y, z: ((1.0 - r) * (1.0 + r)).sqrt() }
+pub(crate) fn sample_wide<F: Float>(u: [F; 2]) -> Xyz<F> {
+    let (r, [x, y]) = concentric_disk::polar(u);
+    // (1 - r)(1 + r) rather than 1 - x² - y²: it keeps the precision of grazing directions, and z
+    // above 0.
+    let one = F::splat(1.0);
+    Xyz { x: r * x, y: r * y, z: ((one - r) * (one + r)).sqrt() }
 }
 
 /// Density over solid angle in 1/sr: cos θ / π, and 0 below the horizon.
 #[inline]
 pub fn pdf(cos_theta: f32) -> f32 {
-    cos_theta.max(0.0) * FRAC_1_PI
+    pdf_wide(cos_theta)
+}
+
+/// [`pdf`] in each lane.
+#[inline(always)]
+pub(crate) fn pdf_wide<F: Float>(cos_theta: F) -> F {
+    cos_theta.max(F::splat(0.0)) * F::splat(FRAC_1_PI)
 }
 
 /// The inverse of [`sample`]: the u whose image is `w`.

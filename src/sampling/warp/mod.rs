@@ -2,8 +2,8 @@
 //!
 //! Each has the same three functions. `sample` takes u in `[0, 1)²` to the domain, `pdf` is the
 //! probability density of the result, and `inverse` returns the u. They are functions of a module,
-//! or methods of a type where the domain has parameters that need set-up. The suffix `_x4` marks
-//! versions for four lanes.
+//! or methods of a type where the domain has parameters that need set-up. The suffix `_wide` marks
+//! the formula behind it, for one number or several.
 //!
 //! All follow one recipe (PBRT 3rd edition, section 13.6): write the density in polar or spherical
 //! coordinates, find the marginal density of the first and the conditional density of the second,
@@ -22,7 +22,6 @@
 
 pub mod concentric_disk;
 pub mod cosine_hemisphere;
-mod seen_x4;
 mod spherical_rectangle;
 mod turn;
 pub mod uniform_cone;
@@ -31,6 +30,5 @@ pub mod uniform_hemisphere;
 pub mod uniform_sphere;
 pub mod uniform_triangle;
 
-pub(crate) use seen_x4::SeenX4;
 pub use spherical_rectangle::SphericalRectangle;
 pub(crate) use spherical_rectangle::{MIN_SOLID_ANGLE, Seen};

@@ -15,6 +15,7 @@
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::geometry::float::ONE_MINUS_EPSILON;
+use crate::simd::Float;
 
 /// Solid angle in sr below which lights sample rectangles by area.
 pub(crate) const MIN_SOLID_ANGLE: f64 = 1e-6;
@@ -38,7 +39,7 @@ pub(crate) const MIN_SOLID_ANGLE: f64 = 1e-6;
 pub struct SphericalRectangle {
     corner: DVec3,
     axes: [DVec3; 2],
-    seen: Seen,
+    seen: Seen<f64>,
 }
 
 impl SphericalRectangle {
@@ -49,9 +50,9 @@ impl SphericalRectangle {
         let (corner, x, y) = (corner.as_dvec3(), edge_x.as_dvec3(), edge_y.as_dvec3());
         let axes = [x.normalize_or_zero(), y.normalize_or_zero()];
         let offset = corner - origin.as_dvec3();
-        let start = DVec2::new(offset.dot(axes[0]), offset.dot(axes[1]));
-        let size = DVec2::new(x.length(), y.length());
-        let seen = Seen::new(start, start + size, offset.dot(axes[0].cross(axes[1])));
+        let start = axes.map(|axis| offset.dot(axis));
+        let end = [start[0] + x.length(), start[1] + y.length()];
+        let seen = Seen::new(start, end, offset.dot(axes[0].cross(axes[1])).abs());
         (seen.solid_angle > 0.0).then_some(Self { corner, axes, seen })
     }
 
@@ -70,15 +71,16 @@ impl SphericalRectangle {
     /// The point of the rectangle that u in `[0, 1)²` is mapped to.
     #[inline]
     pub fn sample(&self, u: Vec2) -> Vec3 {
-        let moved = self.seen.sample(u) - self.seen.start;
-        (self.corner + moved.x * self.axes[0] + moved.y * self.axes[1]).as_vec3()
+        let [x, y] = self.seen.sample(u.as_dvec2().to_array());
+        let [x0, y0] = self.seen.start;
+        (self.corner + (x - x0) * self.axes[0] + (y - y0) * self.axes[1]).as_vec3()
     }
 
     /// The inverse of [`sample`](Self::sample): the u whose image is `p`, up to rounding, which
     /// matters for a small rectangle far from zero.
     pub fn inverse(&self, p: Vec3) -> Vec2 {
         let moved = p.as_dvec3() - self.corner;
-        let place = self.seen.start + DVec2::from(self.axes.map(|axis| moved.dot(axis)));
+        let place = DVec2::from(self.seen.start) + DVec2::from(self.axes.map(|axis| moved.dot(axis)));
         self.seen.inverse(place).as_vec2().clamp(Vec2::ZERO, Vec2::splat(ONE_MINUS_EPSILON))
     }
 }
@@ -86,43 +88,67 @@ impl SphericalRectangle {
 /// A rectangle in the plane at distance z, with edges parallel to the x and y axes, from `start` to
 /// `end`. The reference point is the origin.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Seen {
-    pub(crate) start: DVec2,
-    end: DVec2,
+pub(crate) struct Seen<F> {
+    pub(crate) start: [F; 2],
+    end: [F; 2],
     /// Distance of the plane.
-    z: f64,
+    z: F,
     /// The complex number with argument E(x₀), of any magnitude.
-    left: DVec2,
-    pub(crate) solid_angle: f64,
+    left: [F; 2],
+    pub(crate) solid_angle: F,
 }
 
-impl Seen {
-    /// The solid angle is 0 if z = 0, where the reference point is in the plane, and if a number is
-    /// NaN.
-    #[inline]
-    pub(crate) fn new(start: DVec2, end: DVec2, z: f64) -> Self {
-        let z = z.abs();
-        let left = strip(start.x, start.y, end.y, z);
-        let right = strip(end.x, start.y, end.y, z);
-        let angle = left.perp_dot(right).atan2(left.dot(right));
+/// Least solid angle in sr for which f32 is precise enough: above it the relative error of the
+/// solid angle is at most 1e-5.
+const LEAST_IN_F32: f32 = 0.05;
+/// Greatest extent of a rectangle to the side, in units of the distance of its plane, for which f32
+/// is precise enough: near the horizon precision is lost. Within it, a rectangle subtends at most
+/// 5.6 sr.
+const FARTHEST_IN_F32: f32 = 8.0;
+
+impl<F: Float> Seen<F> {
+    /// The rectangle from `start` to `end` at the distance `z`, which is not negative. The solid angle
+    /// is 0 if z = 0, where the reference point is in the plane, and if a number is NaN.
+    ///
+    /// In f32, lengths should be in units of z, since products of four exceed its range.
+    #[inline(always)]
+    pub(crate) fn new(start: [F; 2], end: [F; 2], z: F) -> Self {
+        let zero = F::splat(0.0);
+        let ([x0, y0], [x1, y1]) = (start, end);
+        let (left, right) = (strip(x0, y0, y1, z), strip(x1, y0, y1, z));
+        let cross = left[0] * right[1] - left[1] * right[0];
+        let angle = cross.atan2(left[0] * right[0] + left[1] * right[1]);
         // A negative angle stands for more than half a turn, if the foot of the perpendicular is in
         // the rectangle: only then are all four terms of the sum positive.
-        let above = start.cmple(DVec2::ZERO).all() && end.cmpge(DVec2::ZERO).all();
-        let angle = if above && angle < 0.0 { angle + std::f64::consts::TAU } else { angle };
-        let solid_angle = if z > 0.0 { angle.max(0.0) } else { 0.0 };
+        let above = x0.le(zero) & y0.le(zero) & x1.ge(zero) & y1.ge(zero);
+        let more = angle + F::constant(std::f64::consts::TAU);
+        let angle = F::select(above & angle.lt(zero), more, angle);
+        let solid_angle = F::select(z.gt(zero) & angle.gt(zero), angle, zero);
         Self { start, end, z, left, solid_angle }
     }
 
+    /// Where f32 is precise enough, if z is 1. The values of other lanes must not be used.
+    #[inline(always)]
+    pub(crate) fn is_precise_in_f32(&self) -> F::Mask {
+        let ([x0, y0], [x1, y1]) = (self.start, self.end);
+        let extent = x0.abs().max(x1.abs()).max(y0.abs()).max(y1.abs());
+        self.solid_angle.gt(F::splat(LEAST_IN_F32)) & extent.le(F::splat(FARTHEST_IN_F32))
+    }
+
     /// The point between `start` and `end` that u is mapped to.
-    #[inline]
-    pub(crate) fn sample(&self, u: Vec2) -> DVec2 {
-        let (y0, y1, z2) = (self.start.y, self.end.y, self.z * self.z);
+    #[inline(always)]
+    pub(crate) fn sample(&self, [u0, u1]: [F; 2]) -> [F; 2] {
+        let (zero, one) = (F::splat(0.0), F::splat(1.0));
+        let ([x0, y0], [x1, y1], z2) = (self.start, self.end, self.z * self.z);
         // E(x), which is E(x₀) rotated by u₀ Ω.
-        let e = self.left.normalize();
-        let e = DVec2::from_angle(f64::from(u.x) * self.solid_angle).rotate(e);
+        let [a, b] = self.left;
+        let length = (a * a + b * b).sqrt();
+        let [cos, sin] = (u0 * self.solid_angle / F::constant(std::f64::consts::TAU)).unit_circle();
+        let e = [(cos * a - sin * b) / length, (cos * b + sin * a) / length];
         // Cosine and sine of the half angle, both times an arbitrary factor.
-        let [c, s] =
-            if e.x > 0.0 { [1.0 + e.x, e.y] } else { [e.y.abs(), (1.0 - e.x).copysign(e.y)] };
+        let right = e[0].gt(zero);
+        let c = F::select(right, one + e[0], e[1].abs());
+        let s = F::select(right, e[1], (one - e[0]).copysign(e[1]));
         // Solves E = asin(s₁ k) - asin(s₀ k) for x. Here s and t are the sine and cosine of the
         // angle between the direction to y and the z axis, and k is the sine of the same angle for
         // x. The two arcsines are angles of a triangle with the sides s₁ and s₀, whose
@@ -132,41 +158,43 @@ impl Seen {
         let (sum, cosines) = (y0 / r0 + y1 / r1, self.z / r0 + self.z / r1);
         let outer = (span * c - cosines * s) * (span * c + cosines * s);
         let inner = (cosines * c - sum * s) * (cosines * c + sum * s);
-        let x = 2.0 * self.z * s * c * cosines / (outer.max(0.0) * inner.max(0.0)).sqrt();
+        let root = (outer.max(zero) * inner.max(zero)).sqrt();
+        let x = F::splat(2.0) * self.z * s * c * cosines / root;
         // Rounding can lead beyond the edges. For tiny solid angles x may be all rounding error.
-        let x = x.max(self.start.x).min(self.end.x);
+        let x = x.max(x0).min(x1);
         // Along the line of this x, the sine of the angle of y is uniformly distributed.
         let depth2 = x * x + z2;
         let h0 = y0 / (depth2 + y0 * y0).sqrt();
         let h1 = y1 / (depth2 + y1 * y1).sqrt();
-        let h = h0 + f64::from(u.y) * (h1 - h0);
-        let y = h * (depth2 / ((1.0 - h) * (1.0 + h)).max(0.0)).sqrt();
-        DVec2::new(x, y.max(y0).min(y1))
+        let h = h0 + u1 * (h1 - h0);
+        let y = h * (depth2 / ((one - h) * (one + h)).max(zero)).sqrt();
+        [x, y.max(y0).min(y1)]
     }
+}
 
+impl Seen<f64> {
     /// The inverse of [`Seen::sample`].
     fn inverse(&self, p: DVec2) -> DVec2 {
-        let part = Self::new(self.start, DVec2::new(p.x, self.end.y), self.z).solid_angle;
+        let [_, y0] = self.start;
+        let [_, y1] = self.end;
+        let part = Self::new(self.start, [p.x, y1], self.z).solid_angle;
         let h = |y: f64| y / DVec3::new(p.x, y, self.z).length();
-        let (h0, h1) = (h(self.start.y), h(self.end.y));
-        DVec2::new(part / self.solid_angle, (h(p.y) - h0) / (h1 - h0))
+        DVec2::new(part / self.solid_angle, (h(p.y) - h(y0)) / (h(y1) - h(y0)))
     }
 }
 
 /// The complex number with argument E(x) = atan(x y₁ / (z r₁)) - atan(x y₀ / (z r₀)).
-#[inline]
-fn strip(x: f64, y0: f64, y1: f64, z: f64) -> DVec2 {
+#[inline(always)]
+fn strip<F: Float>(x: F, y0: F, y1: F, z: F) -> [F; 2] {
     let distance2 = x * x + z * z;
     let (r0, r1) = ((distance2 + y0 * y0).sqrt(), (distance2 + y1 * y1).sqrt());
-    DVec2::new(z * z * r0 * r1 + x * x * y0 * y1, x * z * across(y0, y1, r0, r1, distance2))
+    [z * z * r0 * r1 + x * x * y0 * y1, x * z * across(y0, y1, r0, r1, distance2)]
 }
 
 /// y₁ r₀ - y₀ r₁ for r² = y² + `distance2`, without cancellation for y₀ close to y₁.
-#[inline]
-fn across(y0: f64, y1: f64, r0: f64, r1: f64, distance2: f64) -> f64 {
-    if y0 * y1 > 0.0 {
-        distance2 * (y1 - y0) * (y1 + y0) / (y1 * r0 + y0 * r1)
-    } else {
-        y1 * r0 - y0 * r1
-    }
+#[inline(always)]
+fn across<F: Float>(y0: F, y1: F, r0: F, r1: F, distance2: F) -> F {
+    let (a, b) = (y1 * r0, y0 * r1);
+    let beside = distance2 * (y1 - y0) * (y1 + y0) / (a + b);
+    F::select((y0 * y1).gt(F::splat(0.0)), beside, a - b)
 }

@@ -11,7 +11,7 @@ use std::f32::consts::TAU;
 use glam::{Vec2, Vec3};
 
 use super::turn::turn;
-use crate::geometry::angle::unit_circle;
+use crate::simd::Float;
 
 /// h = 1 - cos θ for the half angle θ in `[0, π/2]`, from sin² θ in `[0, 1]`.
 #[inline]
@@ -24,7 +24,7 @@ pub fn height(sin2_theta_max: f32) -> f32 {
 pub fn sample(u: Vec2, h: f32) -> Vec3 {
     let below_top = u.x * h;
     let sin_theta = (below_top * (2.0 - below_top)).max(0.0).sqrt();
-    (sin_theta * unit_circle(u.y)).extend(1.0 - below_top)
+    (sin_theta * Vec2::from(u.y.unit_circle())).extend(1.0 - below_top)
 }
 
 /// Density over solid angle in 1/sr: 1/(2π h) within the cone.

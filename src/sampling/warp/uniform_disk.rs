@@ -8,12 +8,12 @@ use std::f32::consts::FRAC_1_PI;
 use glam::Vec2;
 
 use super::turn::turn;
-use crate::geometry::angle::unit_circle;
+use crate::simd::Float;
 
 /// A point of the unit disk. [`concentric_disk`](super::concentric_disk) has less distortion.
 #[inline]
 pub fn sample(u: Vec2) -> Vec2 {
-    u.x.sqrt() * unit_circle(u.y)
+    u.x.sqrt() * Vec2::from(u.y.unit_circle())
 }
 
 /// Density over area: 1/π on the disk.

@@ -8,13 +8,13 @@ use std::f32::consts::TAU;
 use glam::{Vec2, Vec3};
 
 use super::turn::turn;
-use crate::geometry::angle::unit_circle;
+use crate::simd::Float;
 
 /// A unit vector with z ≥ 0.
 #[inline]
 pub fn sample(u: Vec2) -> Vec3 {
     let z = u.x;
-    (((1.0 - z) * (1.0 + z)).sqrt() * unit_circle(u.y)).extend(z)
+    (((1.0 - z) * (1.0 + z)).sqrt() * Vec2::from(u.y.unit_circle())).extend(z)
 }
 
 /// Density over solid angle in 1/sr: 1/(2π) above the horizon.

@@ -5,27 +5,26 @@
 
 use std::f32::consts::TAU;
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3};
 
 use super::turn::turn;
-use crate::geometry::angle::{unit_circle, unit_circle_x4};
-use crate::geometry::four::{Vec3x4, four};
+use crate::geometry::Xyz;
+use crate::simd::Float;
 
 /// A unit vector.
 #[inline]
 pub fn sample(u: Vec2) -> Vec3 {
-    // sin θ = √(1 - z²) = 2 √(u₀ (1 - u₀)), which keeps its precision at both poles.
-    let sin_theta = 2.0 * (u.x * (1.0 - u.x)).sqrt();
-    (sin_theta * unit_circle(u.y)).extend(1.0 - 2.0 * u.x)
+    sample_wide(u.to_array()).into()
 }
 
-/// Four lanes of [`sample`], equal to it in every bit.
+/// [`sample`] in each lane.
 #[inline(always)]
-pub(crate) fn sample_x4(u: [Vec2; 4]) -> Vec3x4 {
-    let (u0, u1) = (Vec4::from_array(four(|i| u[i].x)), Vec4::from_array(four(|i| u[i].y)));
-    let sin_theta = 2.0 * (u0 * (1.0 - u0)).sqrt();
-    let [cos, sin] = unit_circle_x4(u1);
-    Vec3x4 { x: sin_theta * cos, y: sin_theta * sin, z: 1.0 - 2.0 * u0 }
+pub(crate) fn sample_wide<F: Float>([u0, u1]: [F; 2]) -> Xyz<F> {
+    let (one, two) = (F::splat(1.0), F::splat(2.0));
+    // sin θ = √(1 - z²) = 2 √(u₀ (1 - u₀)), which keeps its precision at both poles.
+    let sin_theta = two * (u0 * (one - u0)).sqrt();
+    let [cos, sin] = u1.unit_circle();
+    Xyz { x: sin_theta * cos, y: sin_theta * sin, z: one - two * u0 }
 }
 
 /// Density over solid angle in 1/sr: 1/(4π).

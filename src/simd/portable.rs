@@ -2,8 +2,9 @@
 
 use std::array::from_fn;
 
+use glam::Vec4;
+
 use super::lanes::{Kernel, LANES, LaneIndices, Lanes, Mask, Vector};
-use crate::geometry::Ray;
 
 /// Sixteen f32 in an array.
 #[derive(Clone, Copy)]
@@ -84,6 +85,8 @@ impl Vector for Portable {
 impl Lanes for Portable {
     type Narrow = Self;
 
+    type Block = Vec4;
+
     const USES_PACKETS: bool = false;
 
     const SKIPS_EMPTY: bool = true;
@@ -112,18 +115,8 @@ impl Lanes for Portable {
         Self(*x)
     }
     #[inline(always)]
-    fn transpose_rays(rays: &[Ray; LANES]) -> [Self; 8] {
-        let of = |f: fn(&Ray) -> f32| Self(from_fn(|i| f(&rays[i])));
-        [
-            of(|r| r.o.x),
-            of(|r| r.o.y),
-            of(|r| r.o.z),
-            of(|r| r.t_min),
-            of(|r| r.d.x),
-            of(|r| r.d.y),
-            of(|r| r.d.z),
-            of(|r| r.t_max),
-        ]
+    fn transpose(records: &[[f32; 8]; LANES]) -> [Self; 8] {
+        from_fn(|number| Self(from_fn(|i| records[i][number])))
     }
     #[inline(always)]
     fn reduce_min(self) -> f32 {

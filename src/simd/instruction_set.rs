@@ -1,4 +1,4 @@
-//! [`InstructionSet`]: which instructions rays are traced with.
+//! [`InstructionSet`]: which instructions rays are traced and hits are shaded with.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,12 +7,13 @@ use std::str::FromStr;
 use super::avx2::Avx2;
 #[cfg(target_arch = "x86_64")]
 use super::avx512::Avx512;
+use super::float::Block;
 use super::lanes::{Kernel, LANES, Lanes};
 use super::portable::Portable;
 
-/// The SIMD instructions that rays are traced with: `portable`, `avx2` or `avx512`.
+/// The SIMD instructions that rays are traced and hits are shaded with: `portable`, `avx2` or `avx512`.
 ///
-/// A value always names instructions that this processor has. All give the same hits to the bit, at different
+/// A value always names instructions that this processor has. All give the same picture to the bit, at different
 /// speed. Choose one other than the fastest for measuring and for tests.
 ///
 /// ```
@@ -99,7 +100,7 @@ impl InstructionSet {
     }
 
     /// Lanes of the vector that small leaves are tested with ([`Lanes::Narrow`]).
-    pub(in crate::accel) fn leaf_lanes(self) -> usize {
+    pub(crate) fn leaf_lanes(self) -> usize {
         match self.0 {
             Known::Avx2 => 8,
             Known::Portable | Known::Avx512 => LANES,
@@ -108,7 +109,7 @@ impl InstructionSet {
 
     /// Runs a kernel with these instructions.
     #[inline(always)]
-    pub(in crate::accel) fn run<K: Kernel>(
+    pub(crate) fn run<K: Kernel>(
         self,
         data: &K::Data,
         scratch: &mut K::Scratch,
@@ -122,6 +123,38 @@ impl InstructionSet {
             Known::Avx2 => Avx2::call(data, scratch, input, kernel),
             _ => Portable::call(data, scratch, input, kernel),
         }
+    }
+
+    /// Runs a loop over blocks with these instructions.
+    #[inline(always)]
+    pub(crate) fn run_block<K: BlockKernel>(self, kernel: K) -> K::Output {
+        self.run(&(), &mut (), &(), OfLanes(kernel))
+    }
+}
+
+/// A loop over blocks of numbers that is written once for all instruction sets.
+///
+/// As for [`Kernel`], `run` and all that takes or returns vectors is marked `#[inline(always)]`.
+pub trait BlockKernel {
+    /// The result.
+    type Output;
+
+    /// Runs the loop with one type of vectors.
+    fn run<F: Block>(self) -> Self::Output;
+}
+
+/// A [`BlockKernel`] as a [`Kernel`].
+struct OfLanes<K>(K);
+
+impl<K: BlockKernel> Kernel for OfLanes<K> {
+    type Input = ();
+    type Data = ();
+    type Scratch = ();
+    type Output = K::Output;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, (): &(), (): &(), (): &mut ()) -> K::Output {
+        self.0.run::<L::Block>()
     }
 }
 

@@ -3,7 +3,7 @@
 //! Each operation is the IEEE 754 operation in each lane, and no multiply-add is fused. So every implementation
 //! gives the same bits as scalar f32 code.
 
-use crate::geometry::Ray;
+use super::float::Block;
 
 /// Number of lanes of a [`Lanes`]: children per node, most triangles per leaf, rays per packet.
 pub const LANES: usize = 16;
@@ -85,6 +85,9 @@ pub trait Lanes: Vector {
     /// registers takes twice as long as testing one.
     type Narrow: Vector;
 
+    /// The vector for loops over blocks of numbers: the widest that is one register.
+    type Block: Block;
+
     /// Whether tracing packets of rays is faster than tracing them one by one.
     const USES_PACKETS: bool;
 
@@ -101,8 +104,8 @@ pub trait Lanes: Vector {
 
     fn load(x: &[f32; LANES]) -> Self;
     fn to_array(self) -> [f32; LANES];
-    /// Transposes rays: o.x, o.y, o.z, t_min, d.x, d.y, d.z, t_max, each of all rays.
-    fn transpose_rays(rays: &[Ray; LANES]) -> [Self; 8];
+    /// Number i of all records, for each i.
+    fn transpose(records: &[[f32; 8]; LANES]) -> [Self; 8];
     /// Lanes where `self < other`; false where either is NaN.
     fn lt(self, other: Self) -> Mask;
     /// `other` in the lanes of `mask`, `self` elsewhere.

@@ -6,7 +6,6 @@ use super::f32x8::F32x8;
 use super::lanes::{Kernel, LANES, LaneIndices, Lanes, Mask, Vector};
 use super::mask_tables::{compress, flipped};
 use super::transpose::transpose8;
-use crate::geometry::Ray;
 
 /// Sixteen f32 in two registers. Only [`super::InstructionSet::run`] names this type, if [`Avx2::is_available`]: each
 /// `unsafe` below executes an instruction that such a processor has.
@@ -99,6 +98,8 @@ impl Vector for Avx2 {
 impl Lanes for Avx2 {
     type Narrow = F32x8;
 
+    type Block = F32x8;
+
     const USES_PACKETS: bool = true;
 
     const SKIPS_EMPTY: bool = true;
@@ -133,9 +134,15 @@ impl Lanes for Avx2 {
         unsafe { Self::load_unaligned(x.as_ptr()) }
     }
     #[inline(always)]
-    fn transpose_rays(rays: &[Ray; LANES]) -> [Self; 8] {
-        const { assert!(size_of::<Ray>() == 8 * size_of::<f32>()) };
-        let (low, high) = (transpose8(&rays[..8]), transpose8(&rays[8..]));
+    fn transpose(records: &[[f32; 8]; LANES]) -> [Self; 8] {
+        let at = |i: usize| records[i].as_ptr();
+        // SAFETY: as above; each record has eight numbers.
+        let (low, high) = unsafe {
+            (
+                transpose8([at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)]),
+                transpose8([at(8), at(9), at(10), at(11), at(12), at(13), at(14), at(15)]),
+            )
+        };
         let both = |i: usize| Self(low[i], high[i]);
         [both(0), both(1), both(2), both(3), both(4), both(5), both(6), both(7)]
     }

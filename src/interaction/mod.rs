@@ -1,9 +1,15 @@
 //! [`SurfaceInteraction`]: position, normals and derivatives at a hit.
 
+mod block;
+
 use glam::{Vec2, Vec3};
 
-use crate::geometry::{BoundedPoint, Frame, Ray, unit, unit_cross};
-use crate::shape::{TriangleMesh, triangle_normal};
+pub use block::{BLOCK, HitBlock};
+pub(crate) use block::{FoundHits, LastVertex};
+
+use crate::geometry::{BoundedPoint, Frame, Ray, Xyz, unit, unit_cross};
+use crate::shape::{TriangleMesh, shading_normal_wide, triangle_normal};
+use crate::simd::Float;
 
 /// Derivatives of position and normal with respect to the texture coordinates (u, v).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -89,9 +95,11 @@ impl<'a> SurfaceInteraction<'a> {
         let triangle = triangle as usize;
         let corners = mesh.corners(triangle);
         let n = triangle_normal(corners);
-        // If there are vertex normals, they define the outer side (PBRT 3rd edition, section 3.6.2).
-        let (n, shading_n) = match mesh.shading_normal(triangle, b) {
-            Some(ns) => (if n.dot(ns) < 0.0 { -n } else { n }, ns),
+        let (n, shading_n) = match mesh.corner_normals(triangle) {
+            Some(normals) => {
+                let [n, shading_n] = oriented(n.into(), normals.map(Xyz::from), b);
+                (n.into(), shading_n.into())
+            }
             None => (n, n),
         };
         Self {
@@ -254,4 +262,14 @@ impl<'a> SurfaceInteraction<'a> {
     fn ray_origin(&self, w: Vec3) -> Vec3 {
         self.p.ray_origin(self.n, w)
     }
+}
+
+/// The geometric normal on the outer side, and the shading normal. If there are vertex normals, they define both (PBRT 3rd
+/// edition, section 3.6.2).
+#[inline(always)]
+fn oriented<F: Float>(n: Xyz<F>, normals: [Xyz<F>; 3], b: [F; 3]) -> [Xyz<F>; 2] {
+    let (ns, exists) = shading_normal_wide(normals, b);
+    let inward = exists & n.dot(ns).lt(F::splat(0.0));
+    let n = Xyz::select(inward, -n, n);
+    [n, Xyz::select(exists, ns, n)]
 }

@@ -1,0 +1,288 @@
+//! [`BsdfBlock`]: the lobes at a block of hits.
+
+use std::marker::PhantomData;
+
+use arrayvec::ArrayVec;
+use glam::{Vec2, Vec3};
+
+use super::bsdf::sides;
+use super::lobe::{MOST_NUMBERS, Model, of_model};
+use super::{Bsdf, BxdfFlags, Lobe, WideBxdf};
+use crate::interaction::{HitBlock, SurfaceInteraction};
+use crate::simd::{Block, BlockKernel, LaneMask, ROW, Row, Rows, groups, lanes_within};
+
+/// The lobes at a block of hits: what a [`Bsdf`] is for one.
+///
+/// Where all hits have one lobe of the same model of this crate, as they do on most materials, the lobes are kept as rows of
+/// numbers and evaluated several at a time. Otherwise a [`Bsdf`] is kept for each hit. Both give the same bits.
+pub struct BsdfBlock<'a> {
+    /// The model of all lobes; `None` if `each` has what there is.
+    model: Option<Model>,
+    numbers: [Row; MOST_NUMBERS],
+    each: ArrayVec<Bsdf<'a>, ROW>,
+    rejected: u32,
+}
+
+/// Directions drawn at a block of hits: see [`BxdfSample`](super::BxdfSample).
+pub(crate) struct BsdfSamples {
+    pub f: Rows<3>,
+    pub wi: Rows<3>,
+    /// 0 where there is no sample.
+    pub pdf: Row,
+    /// Whether the event is specular: 1 or 0.
+    pub is_specular: Row,
+    pub eta: Row,
+    /// Whether some event may be specular, or have an index other than 1.
+    has_events: bool,
+}
+
+impl BsdfSamples {
+    /// No samples.
+    pub fn new() -> Self {
+        let (zero, zeros) = (Row::splat(0.0), Rows::splat(0.0));
+        Self { f: zeros, wi: zeros, pdf: zero, is_specular: zero, eta: Row::splat(1.0), has_events: false }
+    }
+}
+
+impl<'a> BsdfBlock<'a> {
+    /// No lobes.
+    pub(crate) fn new() -> Self {
+        let numbers = [Row::splat(0.0); MOST_NUMBERS];
+        Self { model: None, numbers, each: ArrayVec::new(), rejected: 0 }
+    }
+
+    /// Replaces the lobes by those that `bsdf_at` returns for each hit. It may replace the shading geometry of a hit, and
+    /// may be called twice for it.
+    #[inline]
+    pub fn fill(
+        &mut self,
+        hits: &mut HitBlock,
+        bsdf_at: impl Fn(&mut SurfaceInteraction) -> Bsdf<'a>,
+    ) {
+        self.each.clear();
+        self.model = None;
+        for i in 0..hits.len() {
+            let mut si = hits.get(i);
+            let bsdf = bsdf_at(&mut si);
+            if !self.set_only_lobe(i, si.n(), &bsdf) {
+                self.model = None;
+                break;
+            }
+            hits.shading_n.set(i, bsdf.frame().n.to_array());
+        }
+        if self.model.is_none() {
+            self.each.extend((0..hits.len()).map(|i| bsdf_at(&mut hits.get(i))));
+        }
+    }
+
+    /// Replaces the lobes by one for each hit, of the same model, in the shading frames of the hits.
+    #[inline]
+    pub(crate) fn fill_alike<B: Into<Lobe<'a>>>(&mut self, hits: &HitBlock, lobe_at: impl Fn(usize) -> B) {
+        self.each.clear();
+        self.model = None;
+        for i in 0..hits.len() {
+            if let Some((model, numbers)) = lobe_at(i).into().numbers() {
+                self.model = Some(model);
+                self.set(i, numbers);
+            }
+        }
+    }
+
+    /// Replaces the lobes by the same one for each hit, in the shading frames of the hits.
+    #[inline]
+    pub(crate) fn fill_constant(&mut self, lobe: impl Into<Lobe<'a>>) {
+        self.each.clear();
+        if let Some((model, numbers)) = lobe.into().numbers() {
+            self.model = Some(model);
+            for (row, number) in self.numbers.iter_mut().zip(numbers) {
+                *row = Row::splat(number);
+            }
+        }
+    }
+
+    /// Keeps the only lobe at a hit as numbers, if that is possible. No lobe counts as one of zeros, which is black.
+    #[inline(always)]
+    fn set_only_lobe(&mut self, i: usize, ng: Vec3, bsdf: &Bsdf<'a>) -> bool {
+        let numbers = match bsdf.only_lobe(ng) {
+            Some(Some(lobe)) => lobe.numbers(),
+            Some(None) => Some((self.model.unwrap_or(Model::LambertianReflection), [0.0; MOST_NUMBERS])),
+            None => None,
+        };
+        match numbers {
+            Some((model, numbers)) if self.model.is_none_or(|known| known == model) => {
+                self.model = Some(model);
+                self.set(i, numbers);
+                true
+            }
+            _ => false,
+        }
+    }
+
+    #[inline(always)]
+    fn set(&mut self, i: usize, numbers: [f32; MOST_NUMBERS]) {
+        for (row, number) in self.numbers.iter_mut().zip(numbers) {
+            row.set(i, number);
+        }
+    }
+
+    /// [`Bsdf::f_and_pdf`] of all lobes, for the world direction `wi` of each hit.
+    #[inline]
+    pub(crate) fn f_and_pdf(
+        &mut self,
+        hits: &HitBlock,
+        wi: &Rows<3>,
+        f: &mut Rows<3>,
+        pdf: &mut Row,
+    ) {
+        let Some(model) = self.model else {
+            for (i, bsdf) in self.each.iter().enumerate() {
+                let (value, density) =
+                    bsdf.f_and_pdf(hits.wo(i), wi.get(i).into(), BxdfFlags::all());
+                f.set(i, value.to_array());
+                pdf.set(i, density);
+            }
+            return;
+        };
+        let set = hits.instruction_set;
+        let Self { numbers, rejected, .. } = self;
+        of_model!(model, M => {
+            *rejected += set.run_block(Evaluate::<M, _> { hits, numbers, wi, f, pdf, model: PhantomData });
+        });
+    }
+
+    /// [`Bsdf::sample_f`] at each hit. `uc` is asked for that number of a hit if it is used.
+    #[inline]
+    pub(crate) fn sample_f(
+        &mut self,
+        hits: &HitBlock,
+        uc: impl Fn(usize) -> f32,
+        u: &[Vec2; ROW],
+        samples: &mut BsdfSamples,
+    ) {
+        let Some(model) = self.model else {
+            samples.has_events = true;
+            for (i, (bsdf, &u)) in self.each.iter().zip(u).enumerate() {
+                let uc = if bsdf.uses_uc() { uc(i) } else { f32::NAN };
+                samples.pdf.set(i, 0.0);
+                if let Some(sample) = bsdf.sample_f(hits.wo(i), uc, u, BxdfFlags::all()) {
+                    samples.f.set(i, sample.f.to_array());
+                    samples.wi.set(i, sample.wi.to_array());
+                    samples.pdf.set(i, sample.pdf);
+                    samples.is_specular.set(i, f32::from(sample.is_specular()));
+                    samples.eta.set(i, sample.eta);
+                }
+            }
+            return;
+        };
+        let set = hits.instruction_set;
+        let Self { numbers, rejected, .. } = self;
+        if std::mem::take(&mut samples.has_events) {
+            (samples.is_specular, samples.eta) = (Row::splat(0.0), Row::splat(1.0));
+        }
+        of_model!(model, M => {
+            *rejected += set.run_block(Sample::<M, _> { hits, numbers, u, samples, model: PhantomData });
+        });
+    }
+
+    /// Takes the number of [rejected](Bsdf::rejected) results.
+    pub(crate) fn take_rejected(&mut self) -> u64 {
+        let of_each: u32 = self.each.iter().map(Bsdf::rejected).sum();
+        u64::from(std::mem::take(&mut self.rejected) + of_each)
+    }
+}
+
+/// The lobes in the lanes from `at` on.
+#[inline(always)]
+fn load<F: Block, const N: usize>(numbers: &[Row; MOST_NUMBERS], at: usize) -> [F; N] {
+    let mut lobes = [F::splat(0.0); N];
+    for (lobe, row) in lobes.iter_mut().zip(numbers) {
+        *lobe = row.load(at);
+    }
+    lobes
+}
+
+struct Evaluate<'a, M, const N: usize> {
+    hits: &'a HitBlock<'a>,
+    numbers: &'a [Row; MOST_NUMBERS],
+    wi: &'a Rows<3>,
+    f: &'a mut Rows<3>,
+    pdf: &'a mut Row,
+    model: PhantomData<[M; N]>,
+}
+
+impl<M: WideBxdf<N>, const N: usize> BlockKernel for Evaluate<'_, M, N> {
+    type Output = u32;
+
+    #[inline(always)]
+    fn run<F: Block>(self) -> u32 {
+        let Self { hits, numbers, wi: all_wi, f: all_f, pdf: all_pdf, .. } = self;
+        let (len, zero) = (hits.len(), F::splat(0.0));
+        let mut rejected = 0;
+        for at in groups::<F>(len) {
+            let of_hits = hits.load::<F>(at);
+            let (wo, wi, axes) = (of_hits.wo, all_wi.load(at).into(), of_hits.axes());
+            let (local_wo, local_wi) = (axes.to_local(wo), axes.to_local(wi));
+            let lobes = load::<F, N>(numbers, at);
+            let [reflects, _] =
+                sides([wo.dot(of_hits.n), wi.dot(of_hits.n)], [local_wo.z, local_wi.z]);
+            let exists = !local_wo.z.eq(zero);
+            let f = M::f(lobes, local_wo, local_wi).only(reflects & exists);
+            let pdf = F::select(exists, M::pdf(lobes, local_wo, local_wi), zero);
+            let (f_valid, pdf_valid) = (f.is_valid(), is_density(pdf));
+            all_f.store(at, f.only(f_valid).0);
+            all_pdf.store(at, F::select(pdf_valid, pdf, zero));
+            let within = lanes_within::<F>(at, len);
+            rejected += ((!f_valid).bits() & within).count_ones();
+            rejected += ((!pdf_valid).bits() & within).count_ones();
+        }
+        rejected
+    }
+}
+
+struct Sample<'a, M, const N: usize> {
+    hits: &'a HitBlock<'a>,
+    numbers: &'a [Row; MOST_NUMBERS],
+    u: &'a [Vec2; ROW],
+    samples: &'a mut BsdfSamples,
+    model: PhantomData<[M; N]>,
+}
+
+impl<M: WideBxdf<N>, const N: usize> BlockKernel for Sample<'_, M, N> {
+    type Output = u32;
+
+    #[inline(always)]
+    fn run<F: Block>(self) -> u32 {
+        let Self { hits, numbers, u, samples, .. } = self;
+        let BsdfSamples { f: all_f, wi: all_wi, pdf: all_pdf, .. } = samples;
+        let (len, zero) = (hits.len(), F::splat(0.0));
+        let mut rejected = 0;
+        for at in groups::<F>(len) {
+            let of_hits = hits.load::<F>(at);
+            let (wo, axes) = (of_hits.wo, of_hits.axes());
+            let local_wo = axes.to_local(wo);
+            let lobes = load::<F, N>(numbers, at);
+            let local_wi = M::sample(lobes, local_wo, F::load_pairs(&u[at..]));
+            let wi = axes.to_world(local_wi);
+            let pdf = M::pdf(lobes, local_wo, local_wi);
+            let [reflects, _] =
+                sides([wo.dot(of_hits.n), wi.dot(of_hits.n)], [local_wo.z, local_wi.z]);
+            let exists = !local_wo.z.eq(zero) & pdf.gt(zero);
+            let f = M::f(lobes, local_wo, local_wi).only(reflects & exists);
+            let pdf = F::select(exists, pdf, zero);
+            let (f_valid, pdf_valid) = (f.is_valid(), is_density(pdf));
+            all_f.store(at, f.only(f_valid).0);
+            all_wi.store(at, wi.into());
+            all_pdf.store(at, F::select(pdf_valid, pdf, zero));
+            let within = lanes_within::<F>(at, len);
+            rejected += ((!f_valid).bits() & within).count_ones();
+            rejected += ((!pdf_valid).bits() & within).count_ones();
+        }
+        rejected
+    }
+}
+
+/// Lanes with a finite number that is not negative.
+#[inline(always)]
+fn is_density<F: Block>(pdf: F) -> F::Mask {
+    F::splat(0.0).le(pdf) & pdf.lt(F::splat(f32::INFINITY))
+}

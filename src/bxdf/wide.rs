@@ -1,0 +1,49 @@
+//! [`WideBxdf`]: the formulas of a model, for one pair of directions or for several at a time.
+
+use super::BxdfFlags;
+use crate::geometry::Xyz;
+use crate::geometry::trig::same_side;
+use crate::sampling::cosine_hemisphere;
+use crate::simd::Float;
+use crate::spectrum::Bands;
+
+/// The formulas of a model that reflects, is no delta lobe and does not use `uc`. A lobe of it is `N` numbers.
+///
+/// As for [`BxDF`](super::BxDF), directions are in shading coordinates, `wo.z` is not 0, and the defaults sample the
+/// cosine.
+pub trait WideBxdf<const N: usize> {
+    /// The kind of its lobes.
+    const FLAGS: BxdfFlags;
+
+    /// The numbers of a lobe.
+    fn numbers(&self) -> [f32; N];
+
+    /// Value for a pair of directions.
+    fn f<F: Float>(lobe: [F; N], wo: Xyz<F>, wi: Xyz<F>) -> Bands<F>;
+
+    /// Density of `wi`.
+    #[inline(always)]
+    fn pdf<F: Float>(_lobe: [F; N], wo: Xyz<F>, wi: Xyz<F>) -> F {
+        cosine_pdf(wo, wi)
+    }
+
+    /// A direction drawn with that density.
+    #[inline(always)]
+    fn sample<F: Float>(_lobe: [F; N], wo: Xyz<F>, u: [F; 2]) -> Xyz<F> {
+        cosine_sample(wo, u)
+    }
+}
+
+/// The density of [`cosine_sample`].
+#[inline(always)]
+pub fn cosine_pdf<F: Float>(wo: Xyz<F>, wi: Xyz<F>) -> F {
+    let pdf = cosine_hemisphere::pdf_wide(wi.z.abs());
+    F::select(same_side(wo.z, wi.z), pdf, F::splat(0.0))
+}
+
+/// A direction on the side of `wo`, with a density proportional to its cosine.
+#[inline(always)]
+pub fn cosine_sample<F: Float>(wo: Xyz<F>, u: [F; 2]) -> Xyz<F> {
+    let wi = cosine_hemisphere::sample_wide(u);
+    Xyz { z: F::select(wo.z.lt(F::splat(0.0)), -wi.z, wi.z), ..wi }
+}

@@ -1,0 +1,301 @@
+//! [`HitBlock`]: what is known about a block of hits.
+
+use glam::Vec3;
+
+use super::{Source, SurfaceInteraction, SurfacePlace, oriented};
+use crate::geometry::{Axes, Bounded, BoundedPoint, Ray, Xyz};
+use crate::shape::{TriangleMesh, triangle_normal_wide};
+use crate::simd::{
+    Block, BlockKernel, InstructionSet, LaneMask, ROW, RowMask, Rows, groups, indices,
+    lanes_within,
+};
+
+/// Most hits of a block.
+pub const BLOCK: usize = ROW;
+
+/// A block of hits, each of which is what [`SurfaceInteraction`] is. Kinds of materials and textures that answer for a block
+/// get one.
+pub struct HitBlock<'a> {
+    meshes: &'a [TriangleMesh],
+    last_vertices: &'a [LastVertex],
+    pub(crate) instruction_set: InstructionSet,
+    len: usize,
+    /// Indices of shape and triangle.
+    places: [[u32; 2]; ROW],
+    b: Rows<3>,
+    wo: Rows<3>,
+    p: Rows<3>,
+    p_error: Rows<3>,
+    n: Rows<3>,
+    pub(crate) shading_n: Rows<3>,
+}
+
+/// The hits that a block is filled with.
+pub(crate) trait FoundHits<'a> {
+    /// Number of hits.
+    fn len(&self) -> usize;
+    /// Indices of shape and triangle of a hit.
+    fn place(&self, i: usize) -> [u32; 2];
+    /// The distance of a hit, and its barycentric coordinates.
+    fn t_and_b(&self, i: usize) -> &'a [f32; 4];
+    /// Its ray, with a unit direction.
+    fn ray(&self, i: usize) -> &'a Ray;
+}
+
+/// The geometry of hits in the lanes of vectors.
+pub(crate) struct Hits<F> {
+    pub wo: Xyz<F>,
+    pub n: Xyz<F>,
+    pub shading_n: Xyz<F>,
+}
+
+impl<'a> HitBlock<'a> {
+    /// An empty block of hits on these meshes, to be processed with these instructions.
+    pub(crate) fn new(
+        meshes: &'a [TriangleMesh],
+        last_vertices: &'a [LastVertex],
+        instruction_set: InstructionSet,
+    ) -> Self {
+        let zero = Rows::splat(0.0);
+        Self {
+            meshes,
+            last_vertices,
+            instruction_set,
+            len: 0,
+            places: [[0; 2]; ROW],
+            b: zero,
+            wo: zero,
+            p: zero,
+            p_error: zero,
+            n: zero,
+            shading_n: zero,
+        }
+    }
+
+    /// Replaces the hits by others.
+    ///
+    /// # Panics
+    /// If there are more than [`BLOCK`], or a place is not on the meshes.
+    #[inline]
+    pub(crate) fn fill(&mut self, found: &impl FoundHits<'a>) {
+        self.len = found.len();
+        for (i, place) in self.places[..self.len].iter_mut().enumerate() {
+            *place = found.place(i);
+        }
+        let imprecise = self.instruction_set.run_block(Locate { hits: self, found });
+        for i in indices(imprecise) {
+            self.locate_one(i);
+        }
+    }
+
+    /// Number of hits.
+    #[inline]
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there are no hits.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// The hit with this index.
+    ///
+    /// # Panics
+    /// If `i` is [`BLOCK`] or more. Beyond the last hit it is one of an earlier block.
+    #[inline]
+    pub fn get(&self, i: usize) -> SurfaceInteraction<'a> {
+        let place = self.place(i);
+        SurfaceInteraction {
+            p: BoundedPoint { p: self.p.get(i).into(), error: self.p_error.get(i).into() },
+            wo: self.wo.get(i).into(),
+            n: self.n.get(i).into(),
+            shading_n: self.shading_n.get(i).into(),
+            source: Source::Triangle { mesh: &self.meshes[place.shape as usize], place },
+            displaced: None,
+        }
+    }
+
+    #[inline]
+    fn place(&self, i: usize) -> SurfacePlace {
+        let [shape, triangle] = self.places[i];
+        SurfacePlace { shape, triangle, b: self.b.get(i) }
+    }
+
+    /// The unit direction from which a hit is seen.
+    #[inline]
+    pub(crate) fn wo(&self, i: usize) -> Vec3 {
+        self.wo.get(i).into()
+    }
+
+    /// The points.
+    #[inline(always)]
+    pub(crate) fn p(&self) -> &Rows<3> {
+        &self.p
+    }
+
+    /// The points in the lanes from `at` on.
+    #[inline(always)]
+    pub(crate) fn points<F: Block>(&self, at: usize) -> Bounded<F> {
+        Bounded { p: self.p.load(at).into(), error: self.p_error.load(at).into() }
+    }
+
+    /// The geometry in the lanes from `at` on.
+    #[inline(always)]
+    pub(crate) fn load<F: Block>(&self, at: usize) -> Hits<F> {
+        Hits {
+            wo: self.wo.load(at).into(),
+            n: self.n.load(at).into(),
+            shading_n: self.shading_n.load(at).into(),
+        }
+    }
+
+    /// Computes the normals of one hit, where f32 is not precise enough.
+    #[cold]
+    fn locate_one(&mut self, i: usize) {
+        let place = self.place(i);
+        let mesh = &self.meshes[place.shape as usize];
+        let si = SurfaceInteraction::on_shape(mesh, place, self.wo(i));
+        self.n.set(i, si.n.to_array());
+        self.shading_n.set(i, si.shading_n.to_array());
+    }
+}
+
+impl<F: Block> Hits<F> {
+    /// The shading frames, with arbitrary tangents.
+    #[inline(always)]
+    pub fn axes(&self) -> Axes<F> {
+        Axes::from_normal(self.shading_n)
+    }
+}
+
+/// Computes the geometry of all hits, and tells for which the normals are not precise enough.
+struct Locate<'a, 'b, H> {
+    hits: &'a mut HitBlock<'b>,
+    found: &'a H,
+}
+
+/// Most lanes.
+const MOST: usize = 16;
+
+impl<'b, H: FoundHits<'b>> BlockKernel for Locate<'_, 'b, H> {
+    type Output = RowMask;
+
+    #[inline(always)]
+    fn run<F: Block>(self) -> RowMask {
+        let Self { hits, found } = self;
+        let HitBlock { meshes, last_vertices, len, places, b, wo, p, p_error, n, shading_n, .. } =
+            hits;
+        let last = *len - 1;
+        let mut of_shape = (places[0][0], Vertices::of(meshes, last_vertices, places[0][0]));
+        let mut imprecise = 0;
+        for at in groups::<F>(*len) {
+            // Vertices of each corner, and their normals.
+            let mut corners = [[&NOTHING; MOST]; 3];
+            let mut normals = [[&NOTHING; MOST]; 3];
+            let mut has_normals = false;
+            for lane in 0..F::LANES {
+                let [shape, triangle] = places[(at + lane).min(last)];
+                // Most neighbours are on the same shape, whose slices stay in registers.
+                if shape != of_shape.0 {
+                    of_shape = (shape, Vertices::of(meshes, last_vertices, shape));
+                }
+                let Vertices { positions, normals: of_vertices, indices, last } = of_shape.1;
+                let indices = indices[triangle as usize];
+                for (of_corner, index) in corners.iter_mut().zip(indices) {
+                    of_corner[lane] = four_numbers(positions, index, &last.position);
+                }
+                if !of_vertices.is_empty() {
+                    has_normals = true;
+                    for (of_corner, index) in normals.iter_mut().zip(indices) {
+                        of_corner[lane] = four_numbers(of_vertices, index, &last.normal);
+                    }
+                }
+            }
+            let corners = gather(&corners);
+            let [_, b0, b1, b2] = F::gather4(|lane| found.t_and_b((at + lane).min(last)));
+            let [.., dx, dy, dz, _] = F::gather(|lane| {
+                bytemuck::cast_ref::<Ray, [f32; 8]>(found.ray((at + lane).min(last)))
+            });
+            let weights = [b0, b1, b2];
+            let bounded = Bounded::on_triangle(corners, weights);
+            let (ng, is_precise) = triangle_normal_wide(corners);
+            let [ng, ns] = if has_normals {
+                oriented(ng, gather(&normals), weights)
+            } else {
+                [ng, ng]
+            };
+            b.store(at, weights);
+            wo.store(at, [-dx, -dy, -dz]);
+            p.store(at, bounded.p.into());
+            p_error.store(at, bounded.error.into());
+            n.store(at, ng.into());
+            shading_n.store(at, ns.into());
+            let imprecise_lanes = (!is_precise).bits() & lanes_within::<F>(at, *len);
+            imprecise |= RowMask::from(imprecise_lanes) << at;
+        }
+        imprecise
+    }
+}
+
+/// Vectors of three corners.
+#[inline(always)]
+fn gather<F: Block>([a, b, c]: &[[&[f32; 4]; MOST]; 3]) -> [Xyz<F>; 3] {
+    [gather_vector(a), gather_vector(b), gather_vector(c)]
+}
+
+#[inline(always)]
+fn gather_vector<F: Block>(vectors: &[&[f32; 4]; MOST]) -> Xyz<F> {
+    let [x, y, z, _] = F::gather4(|lane| vectors[lane]);
+    Xyz { x, y, z }
+}
+
+/// What lanes without a vertex read.
+const NOTHING: [f32; 4] = [0.0; 4];
+
+/// Position and normal of a mesh's last vertex, followed by a number without a meaning.
+#[derive(Clone, Copy)]
+pub(crate) struct LastVertex {
+    position: [f32; 4],
+    normal: [f32; 4],
+}
+
+impl LastVertex {
+    /// The last vertex of a mesh.
+    pub fn of(mesh: &TriangleMesh) -> Self {
+        let last = |vectors: &[Vec3]| vectors.last().unwrap_or(&Vec3::ZERO).extend(0.0).to_array();
+        Self { position: last(&mesh.positions), normal: last(&mesh.normals) }
+    }
+}
+
+/// The vertices of a mesh, as numbers.
+#[derive(Clone, Copy)]
+struct Vertices<'a> {
+    positions: &'a [f32],
+    normals: &'a [f32],
+    indices: &'a [[u32; 3]],
+    last: &'a LastVertex,
+}
+
+impl<'a> Vertices<'a> {
+    #[inline(always)]
+    fn of(meshes: &'a [TriangleMesh], last_vertices: &'a [LastVertex], shape: u32) -> Self {
+        let TriangleMesh { positions, normals, indices, .. } = &meshes[shape as usize];
+        Self {
+            positions: bytemuck::cast_slice(positions),
+            normals: bytemuck::cast_slice(normals),
+            indices,
+            last: &last_vertices[shape as usize],
+        }
+    }
+}
+
+/// The coordinates of a vector and the number after them in memory, which are read at once. After the last vector there is
+/// none: `last` is that vector with another number.
+#[inline(always)]
+fn four_numbers<'a>(vectors: &'a [f32], index: u32, last: &'a [f32; 4]) -> &'a [f32; 4] {
+    let first = 3 * index as usize;
+    let four = vectors.get(first..first + 4).and_then(|four| four.first_chunk());
+    four.unwrap_or(last)
+}

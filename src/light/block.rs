@@ -1,0 +1,230 @@
+//! Blocks of light samples, and of rays that reach lights: what kinds of lights answer for a block get, and what they fill.
+
+use glam::{Vec2, Vec3};
+
+use super::{LightHit, LightSample};
+use crate::geometry::float::{ONE_MINUS_EPSILON, gamma};
+use crate::geometry::{Bounded, Xyz};
+use crate::simd::{
+    Block, BlockKernel, Float, InstructionSet, LaneMask, ROW, Row, RowMask, Rows, groups, indices,
+    lanes_within,
+};
+use crate::spectrum::{Bands, Spectrum};
+
+/// A block of points that a light is sampled for, and the sample value of each.
+pub struct Receivers<'a> {
+    pub(crate) instruction_set: InstructionSet,
+    pub(crate) len: usize,
+    pub(crate) p: &'a Rows<3>,
+    pub(crate) u: &'a [Vec2; ROW],
+}
+
+impl Receivers<'_> {
+    /// Number of points.
+    #[inline]
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there are no points.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// The point with this index, in world space.
+    #[inline]
+    pub fn p(&self, i: usize) -> Vec3 {
+        self.p.get(i).into()
+    }
+
+    /// Its sample value in `[0, 1)²`.
+    #[inline]
+    pub fn u(&self, i: usize) -> Vec2 {
+        self.u[i % ROW]
+    }
+}
+
+/// A [`LightSample`] for each point of a block, or none.
+pub struct LightSamples {
+    pub(crate) li: Rows<3>,
+    pub(crate) wi: Rows<3>,
+    /// 0 where there is no sample.
+    pub(crate) pdf: Row,
+    /// End points of shadow rays, where `t_max` is finite.
+    pub(crate) from: Rows<3>,
+    /// The end of the shadow ray in its own lengths: below 1, or infinite.
+    pub(crate) t_max: Row,
+}
+
+/// [`LightSample`] in each lane.
+pub(super) struct Incident<F> {
+    pub li: Bands<F>,
+    pub wi: Xyz<F>,
+    /// 0 where there is no sample.
+    pub pdf: F,
+    /// End of the shadow ray; `None` for light from an infinite distance.
+    pub from: Option<Xyz<F>>,
+}
+
+impl LightSamples {
+    /// No samples.
+    pub(crate) fn new() -> Self {
+        let (zero, zeros) = (Row::splat(0.0), Rows::splat(0.0));
+        Self { li: zeros, wi: zeros, pdf: zero, from: zeros, t_max: Row::splat(f32::INFINITY) }
+    }
+
+    /// The sample for the point with this index.
+    #[inline]
+    pub fn set(&mut self, i: usize, sample: Option<LightSample>) {
+        let Some(LightSample { li, wi, pdf, from }) = sample else {
+            self.pdf.set(i, 0.0);
+            return;
+        };
+        self.li.set(i, li.to_array());
+        self.wi.set(i, wi.to_array());
+        self.pdf.set(i, pdf);
+        self.from.set(i, from.unwrap_or_default().to_array());
+        self.t_max.set(i, if from.is_some() { ONE_MINUS_EPSILON } else { f32::INFINITY });
+    }
+
+    /// Copies a sample from another block, drawn with a probability besides its density.
+    #[inline]
+    pub(crate) fn copy(&mut self, to: usize, other: &Self, from: usize, probability: f32) {
+        self.li.set(to, other.li.get(from));
+        self.wi.set(to, other.wi.get(from));
+        self.pdf.set(to, other.pdf.get(from) * probability);
+        self.from.set(to, other.from.get(from));
+        self.t_max.set(to, other.t_max.get(from));
+    }
+
+    /// The samples in the lanes from `at` on.
+    #[inline(always)]
+    fn store<F: Block>(&mut self, at: usize, sample: Incident<F>) {
+        let Incident { li, wi, pdf, from } = sample;
+        self.li.store(at, li.0);
+        self.wi.store(at, wi.into());
+        self.pdf.store(at, pdf);
+        self.t_max.store(at, F::splat(if from.is_some() { ONE_MINUS_EPSILON } else { f32::INFINITY }));
+        if let Some(from) = from {
+            self.from.store(at, from.into());
+        }
+    }
+}
+
+impl Incident<f32> {
+    /// The sample of the only lane.
+    #[inline]
+    pub fn into_sample(self) -> Option<LightSample> {
+        let Self { li, wi, pdf, from } = self;
+        let (li, wi, from) = (li.into(), wi.into(), from.map(Vec3::from));
+        (pdf > 0.0).then_some(LightSample { li, wi, pdf, from })
+    }
+}
+
+/// A light that is sampled for several points at a time.
+pub(super) trait WideLight {
+    /// The sample for a point in each lane, and where it is not usable since f32 is not precise enough: those are asked for
+    /// by [`Light::sample_li`](super::Light::sample_li).
+    fn incident<F: Float>(&self, p: Xyz<F>, u: [F; 2]) -> (Incident<F>, F::Mask);
+}
+
+/// Samples a light for all points, but for those that are returned.
+#[inline]
+pub(super) fn sample_wide<L: WideLight>(
+    light: &L,
+    receivers: &Receivers,
+    samples: &mut LightSamples,
+) -> impl Iterator<Item = usize> + use<L> {
+    let set = receivers.instruction_set;
+    indices(set.run_block(SampleWide { light, receivers, samples }))
+}
+
+struct SampleWide<'a, L> {
+    light: &'a L,
+    receivers: &'a Receivers<'a>,
+    samples: &'a mut LightSamples,
+}
+
+impl<L: WideLight> BlockKernel for SampleWide<'_, L> {
+    type Output = RowMask;
+
+    #[inline(always)]
+    fn run<F: Block>(self) -> RowMask {
+        let Self { light, receivers, samples } = self;
+        let mut left = 0;
+        for at in groups::<F>(receivers.len) {
+            let p = receivers.p.load::<F>(at).into();
+            let (incident, imprecise) = light.incident(p, F::load_pairs(&receivers.u[at..]));
+            samples.store(at, incident);
+            let within = lanes_within::<F>(at, receivers.len);
+            left |= RowMask::from(imprecise.bits() & within) << at;
+        }
+        left
+    }
+}
+
+/// The end of a shadow ray towards a point on a surface with the normal `n`: offset from it by the bound on its rounding
+/// error.
+#[inline(always)]
+pub(super) fn end_of_shadow_ray<F: Float>(to_light: Xyz<F>, point: Bounded<F>, n: Xyz<F>) -> Xyz<F> {
+    // The ray misses the point by the rounding of its direction and distance.
+    let error = point.error + to_light.abs() * F::splat(gamma(8));
+    Bounded { p: point.p, error }.ray_origin(n, -to_light)
+}
+
+/// A block of rays that leave the scene.
+pub struct EscapedRays<'a> {
+    pub(crate) len: usize,
+    pub(crate) origin: &'a Rows<3>,
+    pub(crate) wi: &'a Rows<3>,
+}
+
+impl EscapedRays<'_> {
+    /// Number of rays.
+    #[inline]
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there are no rays.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// The ray with this index.
+    #[inline]
+    pub fn get(&self, i: usize) -> LightHit<'static> {
+        LightHit::outside(self.origin.get(i).into(), self.wi.get(i).into())
+    }
+}
+
+/// What a light emits against each ray of a block, and the density with which it would have been sampled.
+pub struct Emitted {
+    pub(crate) le: Rows<3>,
+    pub(crate) pdf: Row,
+}
+
+impl Emitted {
+    /// Nothing.
+    pub(crate) fn new() -> Self {
+        Self { le: Rows::splat(0.0), pdf: Row::splat(0.0) }
+    }
+
+    /// Radiance and density for the ray with this index.
+    #[inline]
+    pub fn set(&mut self, i: usize, le: Spectrum, pdf: f32) {
+        self.le.set(i, le.to_array());
+        self.pdf.set(i, pdf);
+    }
+
+    /// The same radiance and density for all rays.
+    pub(super) fn fill(&mut self, le: Spectrum, pdf: f32) {
+        let mut rows = Rows::splat(0.0);
+        for i in 0..ROW {
+            rows.set(i, le.to_array());
+        }
+        (self.le, self.pdf) = (rows, Row::splat(pdf));
+    }
+}

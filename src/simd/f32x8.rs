@@ -1,0 +1,339 @@
+//! [`F32x8`]: a vector of eight f32 in one AVX2 register.
+
+use std::arch::x86_64::*;
+use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
+
+use glam::Vec2;
+
+use super::float::{Bits, Block, Float, LaneMask};
+use super::lanes::{LaneIndices, Mask, Vector};
+use super::transpose::{pair, transpose4, transpose8};
+
+/// Eight f32 in one register. Exists only while code runs under `Avx2::call`: each `unsafe` below executes an
+/// instruction that such a processor has.
+#[derive(Clone, Copy)]
+pub struct F32x8(pub(super) __m256);
+
+/// Defines methods that take two vectors and are one instruction.
+macro_rules! instructions {
+    ($($name:ident = $instruction:ident;)*) => {$(
+        #[inline(always)]
+        fn $name(self, other: Self) -> Self {
+            // SAFETY: the processor has AVX2, by the promise of the type.
+            unsafe { Self($instruction(self.0, other.0)) }
+        }
+    )*};
+}
+
+impl Vector for F32x8 {
+    const LANES: usize = 8;
+
+    type Indices = Indices8;
+
+    instructions! {
+        add = _mm256_add_ps;
+        sub = _mm256_sub_ps;
+        mul = _mm256_mul_ps;
+        div = _mm256_div_ps;
+        min = _mm256_min_ps;
+        max = _mm256_max_ps;
+    }
+    #[inline(always)]
+    fn splat(x: f32) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm256_set1_ps(x)) }
+    }
+    #[inline(always)]
+    unsafe fn load_unaligned(x: *const f32) -> Self {
+        // SAFETY: as above; the caller promises that the numbers are readable.
+        unsafe { Self(_mm256_loadu_ps(x)) }
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0)) }
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> Mask {
+        // SAFETY: as above.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0)) as Mask }
+    }
+    #[inline(always)]
+    fn eq(self, other: Self) -> Mask {
+        // SAFETY: as above.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_EQ_OQ>(self.0, other.0)) as Mask }
+    }
+    #[inline(always)]
+    fn lane(self, lane: u32) -> f32 {
+        // SAFETY: as above.
+        unsafe {
+            let lane = _mm256_castsi128_si256(_mm_cvtsi32_si128(lane as i32));
+            _mm256_cvtss_f32(_mm256_permutevar8x32_ps(self.0, lane))
+        }
+    }
+    #[inline(always)]
+    fn permute(self, indices: Indices8) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm256_permutevar8x32_ps(self.0, indices.0)) }
+    }
+}
+
+/// [`LaneIndices`] of the first eight lanes: in the lowest four bits of each lane, the bits above unspecified.
+#[derive(Clone, Copy)]
+pub struct Indices8(__m256i);
+
+impl LaneIndices for Indices8 {
+    #[inline(always)]
+    fn unpack([even, odd]: [u32; 2]) -> Self {
+        let words = u64::from(even) | u64::from(odd) << 32;
+        // SAFETY: as above.
+        unsafe {
+            let shifts = _mm256_set_epi32(12, 12, 8, 8, 4, 4, 0, 0);
+            Self(_mm256_srlv_epi32(_mm256_set1_epi64x(words as i64), shifts))
+        }
+    }
+}
+
+/// Which lanes of an [`F32x8`] satisfy a condition: all bits set, or none.
+#[derive(Clone, Copy)]
+pub struct Mask8(__m256);
+
+/// Eight i32.
+#[derive(Clone, Copy)]
+pub struct Bits8(__m256i);
+
+/// Defines operators that are one instruction.
+macro_rules! operators {
+    ($($type:ident: $trait:ident::$method:ident = $instruction:ident;)*) => {$(
+        impl $trait for $type {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                // SAFETY: as above.
+                unsafe { Self($instruction(self.0, other.0)) }
+            }
+        }
+    )*};
+}
+
+operators! {
+    F32x8: Add::add = _mm256_add_ps;
+    F32x8: Sub::sub = _mm256_sub_ps;
+    F32x8: Mul::mul = _mm256_mul_ps;
+    F32x8: Div::div = _mm256_div_ps;
+    Mask8: BitAnd::bitand = _mm256_and_ps;
+    Mask8: BitOr::bitor = _mm256_or_ps;
+    Mask8: BitXor::bitxor = _mm256_xor_ps;
+    Bits8: BitOr::bitor = _mm256_or_si256;
+    Bits8: BitXor::bitxor = _mm256_xor_si256;
+    Bits8: Add::add = _mm256_add_epi32;
+}
+
+impl Neg for F32x8 {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm256_xor_ps(_mm256_set1_ps(-0.0), self.0)) }
+    }
+}
+
+impl Not for Mask8 {
+    type Output = Self;
+
+    #[inline(always)]
+    fn not(self) -> Self {
+        self ^ Self::splat(true)
+    }
+}
+
+impl LaneMask for Mask8 {
+    #[inline(always)]
+    fn splat(is: bool) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm256_castsi256_ps(_mm256_set1_epi32(-i32::from(is)))) }
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        // SAFETY: as above.
+        unsafe { _mm256_movemask_ps(self.0) as u32 }
+    }
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.bits() != 0
+    }
+    #[inline(always)]
+    fn all(self) -> bool {
+        self.bits() == 0xff
+    }
+}
+
+impl Bits for Bits8 {
+    #[inline(always)]
+    fn splat(x: i32) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm256_set1_epi32(x)) }
+    }
+    #[inline(always)]
+    fn is_negative(self) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm256_srai_epi32::<31>(self.0)) }
+    }
+}
+
+/// Defines methods that take two vectors and are one instruction.
+macro_rules! methods {
+    ($($name:ident -> $result:ident = $instruction:expr;)*) => {$(
+        #[inline(always)]
+        fn $name(self, other: Self) -> $result {
+            // SAFETY: as above.
+            unsafe { $result($instruction(self.0, other.0)) }
+        }
+    )*};
+}
+
+impl Float for F32x8 {
+    type Mask = Mask8;
+    type Bits = Bits8;
+
+    methods! {
+        min -> F32x8 = _mm256_min_ps;
+        max -> F32x8 = _mm256_max_ps;
+        lt -> Mask8 = _mm256_cmp_ps::<_CMP_LT_OQ>;
+        le -> Mask8 = _mm256_cmp_ps::<_CMP_LE_OQ>;
+        eq -> Mask8 = _mm256_cmp_ps::<_CMP_EQ_OQ>;
+    }
+    #[inline(always)]
+    fn splat(x: f32) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm256_set1_ps(x)) }
+    }
+    #[inline(always)]
+    fn constant(x: f64) -> Self {
+        <Self as Float>::splat(x as f32)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm256_sqrt_ps(self.0)) }
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0)) }
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm256_floor_ps(self.0)) }
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        // SAFETY: as above.
+        unsafe {
+            let bit = _mm256_set1_ps(-0.0);
+            Self(_mm256_or_ps(_mm256_andnot_ps(bit, self.0), _mm256_and_ps(bit, sign.0)))
+        }
+    }
+    #[inline(always)]
+    fn select(mask: Mask8, yes: Self, no: Self) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm256_blendv_ps(no.0, yes.0, mask.0)) }
+    }
+    #[inline(always)]
+    fn to_bits(self) -> Bits8 {
+        // SAFETY: as above.
+        unsafe { Bits8(_mm256_castps_si256(self.0)) }
+    }
+    #[inline(always)]
+    fn from_bits(bits: Bits8) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm256_castsi256_ps(bits.0)) }
+    }
+}
+
+impl Block for F32x8 {
+    const LANES: usize = 8;
+
+    #[inline(always)]
+    fn load(from: &[f32]) -> Self {
+        let from = &from[..8];
+        // SAFETY: as above; there are eight numbers.
+        unsafe { Self(_mm256_loadu_ps(from.as_ptr())) }
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f32]) {
+        let to = &mut to[..8];
+        // SAFETY: as above; there is room for eight numbers.
+        unsafe { _mm256_storeu_ps(to.as_mut_ptr(), self.0) }
+    }
+    #[inline(always)]
+    fn load_pairs(from: &[Vec2]) -> [Self; 2] {
+        const { assert!(size_of::<Vec2>() == 2 * size_of::<f32>()) };
+        let from: *const f32 = from[..8].as_ptr().cast();
+        // SAFETY: as above; there are eight pairs of numbers (`Vec2` is `repr(C)`).
+        unsafe {
+            let (low, high) = (_mm256_loadu_ps(from), _mm256_loadu_ps(from.add(8)));
+            // Pairs 0, 1, 4, 5 and 2, 3, 6, 7.
+            let even = _mm256_permute2f128_ps::<0x20>(low, high);
+            let odd = _mm256_permute2f128_ps::<0x31>(low, high);
+            [
+                Self(_mm256_shuffle_ps::<0x88>(even, odd)),
+                Self(_mm256_shuffle_ps::<0xdd>(even, odd)),
+            ]
+        }
+    }
+    #[inline(always)]
+    fn gather<'a>(record: impl Fn(usize) -> &'a [f32; 8]) -> [Self; 8] {
+        let at = |lane: usize| record(lane).as_ptr();
+        // SAFETY: as above; each record has eight numbers.
+        let rows =
+            unsafe { transpose8([at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)]) };
+        let [a, b, c, d, e, f, g, h] = rows;
+        [Self(a), Self(b), Self(c), Self(d), Self(e), Self(f), Self(g), Self(h)]
+    }
+    #[inline(always)]
+    fn gather4<'a>(record: impl Fn(usize) -> &'a [f32; 4]) -> [Self; 4] {
+        let at = |lane: usize| record(lane).as_ptr();
+        // SAFETY: as above; each record has four numbers.
+        let [a, b, c, d] = unsafe {
+            transpose4(
+                pair(at(0), at(4)),
+                pair(at(1), at(5)),
+                pair(at(2), at(6)),
+                pair(at(3), at(7)),
+            )
+        };
+        [Self(a), Self(b), Self(c), Self(d)]
+    }
+    #[inline(always)]
+    fn scatter(rows: [Self; 8], to: &mut [[f32; 8]]) {
+        let to = &mut to[..8];
+        let [a, b, c, d, e, f, g, h] = rows;
+        // SAFETY: as above; there is room for eight records of eight numbers.
+        unsafe {
+            let low = transpose4(a.0, b.0, c.0, d.0);
+            let high = transpose4(e.0, f.0, g.0, h.0);
+            for i in 0..4 {
+                let first = _mm256_permute2f128_ps::<0x20>(low[i], high[i]);
+                let fifth = _mm256_permute2f128_ps::<0x31>(low[i], high[i]);
+                _mm256_storeu_ps(to[i].as_mut_ptr(), first);
+                _mm256_storeu_ps(to[i + 4].as_mut_ptr(), fifth);
+            }
+        }
+    }
+    #[inline(always)]
+    fn scatter4([a, b, c, d]: [Self; 4], to: &mut [[f32; 4]]) {
+        let to = &mut to[..8];
+        // SAFETY: as above; there is room for eight records of four numbers.
+        unsafe {
+            let rows = transpose4(a.0, b.0, c.0, d.0);
+            for i in 0..4 {
+                _mm_storeu_ps(to[i].as_mut_ptr(), _mm256_castps256_ps128(rows[i]));
+                _mm_storeu_ps(to[i + 4].as_mut_ptr(), _mm256_extractf128_ps::<1>(rows[i]));
+            }
+        }
+    }
+}
