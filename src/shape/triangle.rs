@@ -2,8 +2,8 @@
 
 use glam::{DVec3, Vec3, Vec3A, Vec3Swizzles};
 
-use crate::geometry::{Ray, Xyz};
 use crate::geometry::float::gamma;
+use crate::geometry::{Ray, Xyz};
 use crate::simd::Float;
 
 /// The unit normal of a triangle, on the side from which its corners are counter-clockwise; zero

@@ -73,7 +73,8 @@ mod tests {
     fn unit_circle_is_exact_to_rounding() {
         for i in 0..=1 << 20 {
             let turn = i as f32 / (1 << 20) as f32;
-            let error = DVec2::from(unit_circle(turn).map(f64::from)) - DVec2::from_angle(TAU * f64::from(turn));
+            let error = DVec2::from(unit_circle(turn).map(f64::from))
+                - DVec2::from_angle(TAU * f64::from(turn));
             let error = error.abs().max_element();
             assert!(error <= f64::from(f32::EPSILON), "{turn}: error {error}");
         }

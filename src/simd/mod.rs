@@ -34,5 +34,5 @@ mod transpose;
 pub use angle::eighth_turn;
 pub use float::{Bits, Block, Float, LaneMask, four};
 pub use instruction_set::{BlockKernel, InstructionSet, InstructionSetError};
-pub use row::{ROW, Row, RowMask, Rows, groups, indices, lanes_within};
 pub use lanes::{Kernel, LANES, LaneIndices, Lanes, Mask, Vector, splat3};
+pub use row::{ROW, Row, RowMask, Rows, groups, indices, lanes_within};

@@ -1,8 +1,8 @@
 //! [`Frustum`]: a beam of rays, against the boxes of a node and the triangles of a leaf.
 
 use super::packet::Packet;
-use crate::simd::{LANES, Lanes, Mask, splat3};
 use crate::accel::tree::{Bvh, Leaf, Node};
+use crate::simd::{LANES, Lanes, Mask, splat3};
 
 /// The frustum around a beam of one to [`MAX_PACKETS`] packets: the space between four side planes and two ends.
 ///

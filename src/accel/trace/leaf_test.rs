@@ -1,9 +1,9 @@
 //! [`LeafTest`]: one ray against the triangles of a leaf.
 
 use super::watertight::edge_function;
-use crate::simd::{Mask, Vector, splat3};
 use crate::accel::tree::Leaf;
 use crate::shape::{ShearedRay, TriangleHit};
+use crate::simd::{Mask, Vector, splat3};
 
 /// A ray prepared for the triangles of leaves, all of which it tests at once.
 pub struct LeafTest<V> {

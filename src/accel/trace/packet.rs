@@ -5,10 +5,10 @@ use glam::Vec3A;
 use super::hit::Hit;
 use super::leaf_test::{LeafTest, intersect_triangle};
 use super::watertight::{depth_error_bound, edge_function, sheared};
-use crate::simd::{LANES, Lanes, Mask, Vector, splat3};
 use crate::accel::tree::{Bvh, Leaf, Node};
 use crate::geometry::Ray;
 use crate::shape::{ShearedRay, TriangleHit};
+use crate::simd::{LANES, Lanes, Mask, Vector, splat3};
 
 /// Sixteen rays whose directions have the same largest axis, with the same sign, and the nearest hit of each so far. Each
 /// lane computes what [`ShearedRay`] computes, to the bit.

@@ -1,9 +1,9 @@
 //! The steps of the watertight triangle test in all lanes, as [`crate::shape::ShearedRay`] takes them for one triangle
 //! and one ray (Woop, Benthin and Wald 2013).
 
-use crate::simd::{Lanes, Vector};
 use crate::geometry::float::gamma;
 use crate::shape::FAR;
+use crate::simd::{Lanes, Vector};
 
 /// Edge function: twice the signed area of the triangle (origin, p, q) seen along z.
 #[inline(always)]
