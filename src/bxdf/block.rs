@@ -69,20 +69,19 @@ impl<'a> BsdfBlock<'a> {
         self.each.clear();
         self.model = None;
         let mut normals = Rows::splat(0.0);
-        for i in 0..hits.len() {
-            let mut si = hits.get(i);
-            let bsdf = bsdf_at(&mut si);
-            if !self.set_only_lobe(i, si.n(), &bsdf) {
-                self.model = None;
-                break;
-            }
+        let mut lobe_at = |i: usize| {
+            let bsdf = bsdf_at(&mut hits.get(i));
             normals.set(i, bsdf.frame().n.to_array());
-        }
-        if self.model.is_none() {
-            for i in 0..hits.len() {
-                let bsdf = bsdf_at(&mut hits.get(i));
-                normals.set(i, bsdf.frame().n.to_array());
+            bsdf
+        };
+        for i in 0..hits.len() {
+            let bsdf = lobe_at(i);
+            if !self.set_only_lobe(i, hits.ng(i), &bsdf) {
+                self.model = None;
+                self.each.extend((0..i).map(&mut lobe_at));
                 self.each.push(bsdf);
+                self.each.extend((i + 1..hits.len()).map(&mut lobe_at));
+                break;
             }
         }
         hits.shading_n = normals;

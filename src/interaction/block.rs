@@ -128,6 +128,12 @@ impl<'a> HitBlock<'a> {
         self.wo.get(i).into()
     }
 
+    /// The geometric normal at a hit.
+    #[inline]
+    pub(crate) fn ng(&self, i: usize) -> Vec3 {
+        self.n.get(i).into()
+    }
+
     /// The points.
     #[inline(always)]
     pub(crate) fn p(&self) -> &Rows<3> {

@@ -4,8 +4,9 @@ use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
-use super::block::{Incident, WideLight, end_of_shadow_ray, sample_wide};
+use super::block::{Incident, WideLight, sample_wide};
 use super::rectangle::Rectangle;
+use super::sample::end_of_shadow_ray;
 use super::{BoundingSphere, Light, LightHit, LightSample, LightSamples, Receivers};
 use crate::geometry::{BoundedPoint, Xyz, unit_wide};
 use crate::sampling::{Discrete, uniform_triangle};

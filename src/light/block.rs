@@ -2,9 +2,9 @@
 
 use glam::{Vec2, Vec3};
 
-use super::{LightHit, LightSample};
-use crate::geometry::float::{ONE_MINUS_EPSILON, gamma};
-use crate::geometry::{Bounded, Xyz};
+use super::sample::{LightHit, LightSample};
+use crate::geometry::Xyz;
+use crate::geometry::float::ONE_MINUS_EPSILON;
 use crate::simd::{
     Block, BlockKernel, Float, InstructionSet, LaneMask, ROW, Row, RowMask, Rows, groups, indices,
     lanes_within,
@@ -165,24 +165,12 @@ impl<L: WideLight> BlockKernel for SampleWide<'_, L> {
     }
 }
 
-/// The end of a shadow ray towards a point on a surface with the normal `n`: offset from it by the bound on its rounding
-/// error.
-#[inline(always)]
-pub(super) fn end_of_shadow_ray<F: Float>(
-    to_light: Xyz<F>,
-    point: Bounded<F>,
-    n: Xyz<F>,
-) -> Xyz<F> {
-    // The ray misses the point by the rounding of its direction and distance.
-    let error = point.error + to_light.abs() * F::splat(gamma(8));
-    Bounded { p: point.p, error }.ray_origin(n, -to_light)
-}
-
 /// A block of rays that leave the scene.
 pub struct EscapedRays<'a> {
     pub(crate) len: usize,
     pub(crate) origin: &'a Rows<3>,
     pub(crate) wi: &'a Rows<3>,
+    pub(crate) needs_pdf: bool,
 }
 
 impl EscapedRays<'_> {
@@ -196,6 +184,12 @@ impl EscapedRays<'_> {
     #[inline]
     pub fn is_empty(&self) -> bool {
         self.len == 0
+    }
+
+    /// Whether densities are asked for. They are not for rays from the camera, which no light is sampled for.
+    #[inline]
+    pub fn needs_pdf(&self) -> bool {
+        self.needs_pdf
     }
 
     /// The ray with this index.

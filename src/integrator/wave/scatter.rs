@@ -207,7 +207,7 @@ impl<'a> Vertices<'a> {
             return;
         }
         // Only infinite lights are left to be hit: a shadow ray tests whether they are visible.
-        ahead.find(rules, scene, hits.len(), &directions.wi);
+        ahead.find(rules, scene, hits.len(), &directions.wi, true);
         let push = PushEscaped { hits, directions, paths, samples, mask, from: ahead, shadow };
         set.run_block(push);
     }
