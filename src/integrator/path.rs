@@ -92,7 +92,7 @@ impl Estimator for PathTracer<'_> {
         if !rules.has_lights() {
             return;
         }
-        wave.paths.start(wave.rays.len());
+        wave.paths.start(wave.rays.len(), scene.material_count());
         for depth in 0..=rules.max_depth {
             // L += β Le w, for lights that the rays hit.
             self.add_emitted(wave, depth);
@@ -190,9 +190,7 @@ impl PathTracer<'_> {
             _ => (&*list, list.rays.as_slice(), &paths.hits[..]),
         };
         let active = &by_hit.active[..];
-        by_material.sort(active.len(), scene.material_count(), |vertex| {
-            scene.material_at(&hits[active[vertex] as usize])
-        });
+        by_material.sort(active.len(), |vertex| scene.material_at(&hits[active[vertex] as usize]));
         let mut vertices = Vertices::new(Stage {
             rules,
             scene,

@@ -284,7 +284,7 @@ mod tests {
                 for (index, light) in lights.iter().enumerate() {
                     let mut samples = LightSamples::new();
                     light.sample_li_block(&receivers, &mut samples);
-                    for i in 0..len {
+                    for (i, &u) in u.iter().enumerate().take(len) {
                         let pdf = samples.pdf.get(i);
                         let is_near = samples.t_max.get(i) < f32::INFINITY;
                         let found = (pdf > 0.0).then(|| LightSample {
@@ -293,7 +293,7 @@ mod tests {
                             pdf,
                             from: is_near.then(|| samples.from.get(i).into()),
                         });
-                        let expected = light.sample_li(receivers.p(i), u[i]);
+                        let expected = light.sample_li(receivers.p(i), u);
                         assert_eq!(
                             found, expected,
                             "trial {trial}, {instruction_set}, light {index}"

@@ -32,15 +32,21 @@ impl ByMaterial {
         }
     }
 
-    /// Sorts the hits 0 to `hits` by the material that `material_of` returns for each, of `materials` in all.
-    pub fn sort(&mut self, hits: usize, materials: usize, material_of: impl Fn(usize) -> u32) {
+    /// Makes room for that many materials, which allocates the first time.
+    pub fn prepare(&mut self, materials: usize) {
+        self.last_met.resize(materials, (0, 0));
+    }
+
+    /// Sorts the hits 0 to `hits` by the material that `material_of` returns for each.
+    ///
+    /// # Panics
+    /// If it is not below the number that was [prepared](Self::prepare) for.
+    pub fn sort(&mut self, hits: usize, material_of: impl Fn(usize) -> u32) {
         let Self { last_met, wave, runs, numbers, order } = self;
-        // Only the first time, with the same number after that.
-        last_met.resize(materials, (0, 0));
         *wave += 1;
         runs.clear();
         order.clear();
-        if materials == 1 {
+        if last_met.len() == 1 {
             order.extend(0..hits as u32);
             runs.push((0, hits));
             return;
@@ -106,9 +112,10 @@ mod tests {
     #[test]
     fn hits_are_sorted_and_keep_their_order() {
         let mut by_material = ByMaterial::default();
+        by_material.prepare(6);
         for (wave, materials) in [[3, 1, 3, 3, 0, 1], [5, 5, 5, 5, 5, 2], [0; 6]].iter().enumerate()
         {
-            by_material.sort(6, 6, |hit| materials[hit]);
+            by_material.sort(6, |hit| materials[hit]);
             let mut found = Vec::new();
             for (material, range) in by_material.runs() {
                 assert!(!range.is_empty(), "wave {wave}");

@@ -144,8 +144,9 @@ impl Paths {
         }
     }
 
-    /// Starts as many paths at the camera as there are rays.
-    pub fn start(&mut self, rays: usize) {
+    /// Starts as many paths at the camera as there are rays, in a scene of so many materials.
+    pub fn start(&mut self, rays: usize, materials: usize) {
+        self.by_material.prepare(materials);
         for sample in self.first.samples.as_slice().len()..rays {
             self.first.samples.push(sample as u32);
             self.first.states.push(Path {
