@@ -13,12 +13,14 @@
 
 mod angle;
 mod f32x4;
+mod flips;
 mod float;
 mod instruction_set;
 mod lanes;
 mod portable;
 mod row;
 mod scalar;
+mod twice;
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
@@ -26,8 +28,6 @@ mod avx2;
 mod avx512;
 #[cfg(target_arch = "x86_64")]
 mod f32x8;
-#[cfg(target_arch = "x86_64")]
-mod mask_tables;
 #[cfg(target_arch = "x86_64")]
 mod transpose;
 

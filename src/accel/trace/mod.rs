@@ -15,7 +15,6 @@ mod packet;
 mod single_ray;
 mod slabs;
 mod stack;
-mod watertight;
 
 pub use batch::Batch;
 pub use hit::Hit;
