@@ -1,5 +1,7 @@
 //! Triangles: geometric normals, and the test of one ray against one triangle.
 
+use std::hint::select_unpredictable;
+
 use glam::{DVec3, Vec3, Vec3A};
 
 use super::watertight::{Crossing, Edges, ShearedRay, longest_axis};
@@ -59,11 +61,11 @@ impl ShearedRay {
     /// The axes that become x, y and z: a cyclic permutation.
     #[inline]
     pub(crate) fn axes_of(ray: &Ray) -> [usize; 3] {
-        match longest_axis(ray.d.to_array()) {
-            [true, _] => [1, 2, 0],
-            [false, true] => [2, 0, 1],
-            [false, false] => [0, 1, 2],
-        }
+        let [x, y] = longest_axis(ray.d.to_array());
+        let pick = |a: usize, b: usize, c: usize| {
+            select_unpredictable(x, a, select_unpredictable(y, b, c))
+        };
+        [pick(1, 2, 0), pick(2, 0, 1), pick(0, 1, 2)]
     }
 
     /// The intersection with t in `[t_min, t_max]`. `None` if there is none, or if t is within its

@@ -7,7 +7,7 @@
 //! that is exactly zero has to be recomputed in f64, in which the products are exact.
 
 use crate::geometry::float::gamma;
-use crate::simd::{Float, splat3};
+use crate::simd::{Float, LaneMask, splat3};
 
 /// A ray prepared for the triangle test: the permutation of axes and the shear that turn its
 /// direction into +z.
@@ -114,28 +114,27 @@ impl<F: Float> Crossing<F> {
         t_min.le(self.t) & self.t.le(t_max)
     }
 
-    /// Whether the crossing is certainly in front of the origin: t is beyond its error bound.
+    /// Whether the crossing is certainly in front of the origin: t is beyond its error bound, or the triangle is beyond
+    /// [`FAR`].
     #[inline(always)]
-    pub fn is_in_front(&self, corners: [[F; 3]; 3]) -> F::Mask {
-        self.t.gt(F::splat(0.0)) & self.depth.abs().gt(self.least_depth(corners))
-    }
-
-    /// Error bound of the depth: a hit at or below it may lie behind the origin (PBRT 3rd edition,
-    /// section 3.9.6, which scales z to be t). Zero for triangles beyond [`FAR`].
-    #[inline(always)]
-    fn least_depth(&self, [x, y, z]: [[F; 3]; 3]) -> F {
-        let (max_x, max_y, max_z) = (max_abs(x), max_abs(y), max_abs(z));
-        let (gamma2, gamma3, gamma5) = (F::splat(gamma(2)), F::splat(gamma(3)), F::splat(gamma(5)));
-        let delta_z = gamma3 * max_z;
-        let delta_x = gamma5 * (max_x + max_z);
-        let delta_y = gamma5 * (max_y + max_z);
-        let delta_e = F::splat(2.0) * (gamma2 * max_x * max_y + delta_y * max_x + delta_x * max_y);
-        let max_e = max_abs(self.edges);
-        let sum = gamma3 * max_e * max_z + delta_e * max_z + delta_z * max_e;
-        let bound = F::splat(3.0) * sum / self.determinant.abs();
+    pub fn is_in_front(&self, [x, y, z]: [[F; 3]; 3]) -> F::Mask {
+        let is_positive = self.t.gt(F::splat(0.0));
+        let max_z = max_abs(z);
+        let delta_z = F::splat(gamma(3)) * max_z;
         let (low, high) = (z[0].min(z[1].min(z[2])), z[0].max(z[1].max(z[2])));
         let is_far = (F::splat(FAR) * (high - low) + delta_z).lt(low.max(-high));
-        F::select(is_far, F::splat(0.0), bound)
+        if is_far.all() {
+            return is_positive;
+        }
+        // PBRT 3rd edition, section 3.9.6, which scales z to be t.
+        let (max_x, max_y, max_e) = (max_abs(x), max_abs(y), max_abs(self.edges));
+        let delta_x = F::splat(gamma(5)) * (max_x + max_z);
+        let delta_y = F::splat(gamma(5)) * (max_y + max_z);
+        let delta_e = F::splat(2.0)
+            * (F::splat(gamma(2)) * max_x * max_y + delta_y * max_x + delta_x * max_y);
+        let sum = F::splat(gamma(3)) * max_e * max_z + delta_e * max_z + delta_z * max_e;
+        let bound = F::splat(3.0) * sum / self.determinant.abs();
+        is_positive & (is_far | self.depth.abs().gt(bound))
     }
 }
 

@@ -76,18 +76,22 @@ impl Lanes for Avx2 {
         }
     }
     #[inline(always)]
-    fn compress(self, mask: Mask, flip: u32, to: &mut [f32; LANES]) {
+    fn compress(from: [Self; 2], mask: Mask, flip: u32, to: [&mut [f32; LANES]; 2]) {
+        let [low, high] = [mask as u8, (mask >> 8) as u8];
         // Bit 3 of `flip` swaps the halves.
-        let (first, second) = if flip & 8 == 0 { (self.0, self.1) } else { (self.1, self.0) };
-        let len = (mask as u8).count_ones() as usize;
-        // SAFETY: as above. There is room for eight numbers at 0 and at `len`, which is at most eight.
+        let is_swapped = flip & 8 != 0;
+        let [Twice(a0, a1), Twice(b0, b1)] = from;
+        let (a0, b0, a1, b1) = if is_swapped { (a1, b1, a0, b0) } else { (a0, b0, a1, b1) };
+        // SAFETY: as above. There is room for eight numbers at 0 and behind the lanes of half a mask, at most eight.
         unsafe {
             let flip = _mm256_set1_epi32(flip as i32 & 7);
-            let to = to.as_mut_ptr();
-            let lanes = _mm256_xor_si256(lanes_of(mask as u8), flip);
-            _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(first.0, lanes));
-            let lanes = _mm256_xor_si256(lanes_of((mask >> 8) as u8), flip);
-            _mm256_storeu_ps(to.add(len), _mm256_permutevar8x32_ps(second.0, lanes));
+            let [to_a, to_b] = [to[0].as_mut_ptr(), to[1].as_mut_ptr()];
+            let lanes = _mm256_xor_si256(lanes_of(low), flip);
+            _mm256_storeu_ps(to_a, _mm256_permutevar8x32_ps(a0.0, lanes));
+            _mm256_storeu_ps(to_b, _mm256_permutevar8x32_ps(b0.0, lanes));
+            let (lanes, len) = (_mm256_xor_si256(lanes_of(high), flip), low.count_ones() as usize);
+            _mm256_storeu_ps(to_a.add(len), _mm256_permutevar8x32_ps(a1.0, lanes));
+            _mm256_storeu_ps(to_b.add(len), _mm256_permutevar8x32_ps(b1.0, lanes));
         }
     }
 }

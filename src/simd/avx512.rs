@@ -123,14 +123,16 @@ impl Lanes for Avx512 {
         }
     }
     #[inline(always)]
-    fn flip_mask(mask: Mask, _flip: u32) -> Mask {
-        mask
+    fn flip_mask(mask: __mmask16, _flip: u32) -> Mask {
+        mask.into()
     }
     #[inline(always)]
-    fn compress(self, mask: Mask, _flip: u32, to: &mut [f32; LANES]) {
-        // SAFETY: as above; the array has room for all lanes.
+    fn compress([a, b]: [Self; 2], mask: Mask, _flip: u32, to: [&mut [f32; LANES]; 2]) {
+        let mask = mask as __mmask16;
+        // SAFETY: as above; the arrays have room for all lanes.
         unsafe {
-            _mm512_storeu_ps(to.as_mut_ptr(), _mm512_maskz_compress_ps(mask as u16, self.0));
+            _mm512_storeu_ps(to[0].as_mut_ptr(), _mm512_maskz_compress_ps(mask, a.0));
+            _mm512_storeu_ps(to[1].as_mut_ptr(), _mm512_maskz_compress_ps(mask, b.0));
         }
     }
 }

@@ -17,9 +17,6 @@ static FLIPS: [[u8; 256]; 8] = {
 /// The mask of sixteen lanes with bit `i` as bit `i ^ flip`.
 #[inline(always)]
 pub fn flipped(mask: Mask, flip: u32) -> Mask {
-    if mask == 0 {
-        return 0;
-    }
     let flips = &FLIPS[flip as usize % 8];
     let mask = (mask as u16).to_le_bytes().map(|bits| flips[usize::from(bits)]);
     u16::from_le_bytes(mask).rotate_left(flip & 8).into()

@@ -1,6 +1,6 @@
 //! [`Vector`] and [`Lanes`]: what traversal asks of vectors of f32. [`Kernel`]: code that is generic over them.
 
-use super::float::{Block, Float};
+use super::float::{Block, Float, LaneMask};
 use super::flips::flipped;
 
 /// Number of lanes of a [`Lanes`]: children per node, most triangles per leaf, rays per packet.
@@ -108,21 +108,22 @@ pub trait Lanes: Vector {
     fn flip(self, _flip: u32) -> Self {
         self
     }
-    /// Flips the mask that comparing [flipped](Lanes::flip) vectors gave, if those were left as they are.
+    /// The bits of the mask that comparing [flipped](Lanes::flip) vectors gave; flips them if those were left as they are.
     #[inline(always)]
-    fn flip_mask(mask: Mask, flip: u32) -> Mask {
-        flipped(mask, flip)
+    fn flip_mask(mask: Self::Mask, flip: u32) -> Mask {
+        if mask.any() { flipped(mask.bits(), flip) } else { 0 }
     }
-    /// Writes the lanes of `mask`, lowest first, next to each other. Both `self` and the mask are flipped. What comes
-    /// behind as many entries as `mask` has lanes is unspecified.
+    /// Writes the lanes of `mask`, lowest first, next to each other, of two vectors. All are flipped. What comes behind as
+    /// many entries as `mask` has lanes is unspecified.
     #[inline(always)]
-    fn compress(self, mut mask: Mask, flip: u32, to: &mut [f32; LANES]) {
-        let from = self.to_array();
-        for to in to {
+    fn compress([a, b]: [Self; 2], mut mask: Mask, flip: u32, to: [&mut [f32; LANES]; 2]) {
+        let ([a, b], [to_a, to_b]) = ([a.to_array(), b.to_array()], to);
+        for (to_a, to_b) in to_a.iter_mut().zip(to_b) {
             if mask == 0 {
                 return;
             }
-            *to = from[(mask.trailing_zeros() ^ flip) as usize % LANES];
+            let lane = (mask.trailing_zeros() ^ flip) as usize % LANES;
+            (*to_a, *to_b) = (a[lane], b[lane]);
             mask &= mask - 1;
         }
     }

@@ -169,7 +169,7 @@ impl<L: Lanes> Frustum<L> {
         let in_ends = ends[0].le(self.ends[1]) & self.ends[0].le(ends[1]);
         let met = in_ends & self.overlaps(node, 0, ends) & self.overlaps(node, 1, ends);
         let near = if self.backwards { -ends[1] } else { ends[0] };
-        (L::flip_mask(met.bits(), self.flip), near)
+        (L::flip_mask(met, self.flip), near)
     }
 
     /// The lanes of the triangles of a leaf that the rays of one packet may hit.

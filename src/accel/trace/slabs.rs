@@ -105,6 +105,6 @@ impl<L: Lanes> Slabs<L> {
     pub fn lanes_met(&self, node: &Node) -> (Mask, L) {
         let (enter, leave) = self.interval(node);
         let (enter, leave) = (enter.flip(self.flip), leave.flip(self.flip));
-        (L::flip_mask(enter.le(leave).bits(), self.flip), enter)
+        (L::flip_mask(enter.le(leave), self.flip), enter)
     }
 }

@@ -85,10 +85,9 @@ impl Stack {
         }
         // Room for all lanes, of which the next push overwrites those that are unused.
         let range = len..len + LANES;
-        let to = (&mut self.ids[range.clone()]).try_into().expect("LANES entries");
-        ids.flip(flip).compress(mask, flip, to);
-        let to = (&mut self.distances[range]).try_into().expect("LANES entries");
-        distances.compress(mask, flip, to);
+        let to_ids = (&mut self.ids[range.clone()]).try_into().expect("LANES entries");
+        let to_distances = (&mut self.distances[range]).try_into().expect("LANES entries");
+        L::compress([ids.flip(flip), distances], mask, flip, [to_ids, to_distances]);
         len + mask.count_ones() as usize
     }
 }
