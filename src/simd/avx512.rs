@@ -49,7 +49,7 @@ impl Vector for Avx512 {
     #[inline(always)]
     fn lane(self, lane: u32) -> f32 {
         // SAFETY: as above.
-        unsafe { _mm512_cvtss_f32(_mm512_maskz_compress_ps(1 << lane, self.0)) }
+        unsafe { _mm512_cvtss_f32(_mm512_permutexvar_ps(_mm512_set1_epi32(lane as i32), self.0)) }
     }
     #[inline(always)]
     fn permute(self, indices: Indices512) -> Self {

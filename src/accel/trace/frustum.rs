@@ -1,7 +1,7 @@
 //! [`Frustum`]: a beam of rays, against the boxes of a node and the triangles of a leaf.
 
 use super::leaf_test::permute3;
-use super::packet::Packet;
+use super::packet::{Packet, lane3};
 use crate::simd::{LANES, LaneMask, Lanes, Mask, splat3};
 use crate::accel::tree::{Bvh, Leaf, Node};
 use crate::shape::ShearedRay;
@@ -91,8 +91,7 @@ impl<L: Lanes> Frustum<L> {
         min_per_leaf: f32,
     ) -> Option<Self> {
         let first = &packets[0];
-        let [x, y, z] = first.sheared.o;
-        let base = [x.lane(0), y.lane(0), z.lane(0)];
+        let base = lane3(first.sheared.o, 0);
         let splat_base = splat3(base);
         let mut farthest = L::splat(0.0);
         let mut start = first.sheared.o[2];

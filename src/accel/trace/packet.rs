@@ -114,9 +114,11 @@ impl<'a, L: Lanes> Packet<'a, L> {
 
     #[inline(always)]
     fn candidates<V: Vector>(&self, leaf: Leaf, ray: u32) -> Mask {
-        let ray = self.ray(ray);
-        let test = LeafTest::<V>::new(&ShearedRay::new(&ray), ray.t_min);
-        test.candidates(leaf, V::splat(ray.t_max)).map_or(0, |candidates| candidates.lanes)
+        let ShearedRay { axes, o, shear } = self.sheared;
+        let sheared = ShearedRay { axes, o: lane3(o, ray), shear: lane3(shear, ray) };
+        let test = LeafTest::<V>::new(&sheared, self.t_min.lane(ray));
+        let t_max = V::splat(self.t_max.lane(ray));
+        test.candidates(leaf, t_max).map_or(0, |candidates| candidates.lanes)
     }
 
     /// Tests all rays against one triangle of a leaf; returns those for which it is the nearest hit so far.
@@ -253,6 +255,12 @@ impl<'a, L: Lanes> Packet<'a, L> {
             }
         }
     }
+}
+
+/// The numbers in one lane of three vectors.
+#[inline(always)]
+pub fn lane3<L: Lanes>([x, y, z]: [L; 3], lane: u32) -> [f32; 3] {
+    [x.lane(lane), y.lane(lane), z.lane(lane)]
 }
 
 /// The scalar test, out of line so that it does not spill the vectors of the caller.
