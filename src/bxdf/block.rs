@@ -40,7 +40,14 @@ impl BsdfSamples {
     /// No samples.
     pub fn new() -> Self {
         let (zero, zeros) = (Row::splat(0.0), Rows::splat(0.0));
-        Self { f: zeros, wi: zeros, pdf: zero, is_specular: zero, eta: Row::splat(1.0), has_events: false }
+        Self {
+            f: zeros,
+            wi: zeros,
+            pdf: zero,
+            is_specular: zero,
+            eta: Row::splat(1.0),
+            has_events: false,
+        }
     }
 }
 
@@ -61,23 +68,32 @@ impl<'a> BsdfBlock<'a> {
     ) {
         self.each.clear();
         self.model = None;
+        let mut normals = Rows::splat(0.0);
+        let mut lobe_at = |i: usize| {
+            let bsdf = bsdf_at(&mut hits.get(i));
+            normals.set(i, bsdf.frame().n.to_array());
+            bsdf
+        };
         for i in 0..hits.len() {
-            let mut si = hits.get(i);
-            let bsdf = bsdf_at(&mut si);
-            if !self.set_only_lobe(i, si.n(), &bsdf) {
+            let bsdf = lobe_at(i);
+            if !self.set_only_lobe(i, hits.ng(i), &bsdf) {
                 self.model = None;
+                self.each.extend((0..i).map(&mut lobe_at));
+                self.each.push(bsdf);
+                self.each.extend((i + 1..hits.len()).map(&mut lobe_at));
                 break;
             }
-            hits.shading_n.set(i, bsdf.frame().n.to_array());
         }
-        if self.model.is_none() {
-            self.each.extend((0..hits.len()).map(|i| bsdf_at(&mut hits.get(i))));
-        }
+        hits.shading_n = normals;
     }
 
     /// Replaces the lobes by one for each hit, of the same model, in the shading frames of the hits.
     #[inline]
-    pub(crate) fn fill_alike<B: Into<Lobe<'a>>>(&mut self, hits: &HitBlock, lobe_at: impl Fn(usize) -> B) {
+    pub(crate) fn fill_alike<B: Into<Lobe<'a>>>(
+        &mut self,
+        hits: &HitBlock,
+        lobe_at: impl Fn(usize) -> B,
+    ) {
         self.each.clear();
         self.model = None;
         for i in 0..hits.len() {
@@ -105,7 +121,9 @@ impl<'a> BsdfBlock<'a> {
     fn set_only_lobe(&mut self, i: usize, ng: Vec3, bsdf: &Bsdf<'a>) -> bool {
         let numbers = match bsdf.only_lobe(ng) {
             Some(Some(lobe)) => lobe.numbers(),
-            Some(None) => Some((self.model.unwrap_or(Model::LambertianReflection), [0.0; MOST_NUMBERS])),
+            Some(None) => {
+                Some((self.model.unwrap_or(Model::LambertianReflection), [0.0; MOST_NUMBERS]))
+            }
             None => None,
         };
         match numbers {
@@ -125,28 +143,35 @@ impl<'a> BsdfBlock<'a> {
         }
     }
 
-    /// [`Bsdf::f_and_pdf`] of all lobes, for the world direction `wi` of each hit.
+    /// [`Bsdf::f_and_pdf`] of all lobes, for the world direction `wi` of each hit where `asked` is above 0. Densities are only
+    /// meant where `needs_pdf` is above 0 too.
     #[inline]
     pub(crate) fn f_and_pdf(
         &mut self,
         hits: &HitBlock,
         wi: &Rows<3>,
+        [asked, needs_pdf]: [&Row; 2],
         f: &mut Rows<3>,
         pdf: &mut Row,
     ) {
         let Some(model) = self.model else {
-            for (i, bsdf) in self.each.iter().enumerate() {
-                let (value, density) =
-                    bsdf.f_and_pdf(hits.wo(i), wi.get(i).into(), BxdfFlags::all());
+            for (i, bsdf) in self.each.iter().enumerate().filter(|(i, _)| asked.get(*i) > 0.0) {
+                let (wo, wi, all) = (hits.wo(i), wi.get(i).into(), BxdfFlags::all());
+                let value = if needs_pdf.get(i) > 0.0 {
+                    let (value, density) = bsdf.f_and_pdf(wo, wi, all);
+                    pdf.set(i, density);
+                    value
+                } else {
+                    bsdf.f(wo, wi, all)
+                };
                 f.set(i, value.to_array());
-                pdf.set(i, density);
             }
             return;
         };
         let set = hits.instruction_set;
         let Self { numbers, rejected, .. } = self;
         of_model!(model, M => {
-            *rejected += set.run_block(Evaluate::<M, _> { hits, numbers, wi, f, pdf, model: PhantomData });
+            *rejected += set.run_block(Evaluate::<M, _> { hits, numbers, wi, asked, f, pdf, model: PhantomData });
         });
     }
 
@@ -205,6 +230,7 @@ struct Evaluate<'a, M, const N: usize> {
     hits: &'a HitBlock<'a>,
     numbers: &'a [Row; MOST_NUMBERS],
     wi: &'a Rows<3>,
+    asked: &'a Row,
     f: &'a mut Rows<3>,
     pdf: &'a mut Row,
     model: PhantomData<[M; N]>,
@@ -215,7 +241,7 @@ impl<M: WideBxdf<N>, const N: usize> BlockKernel for Evaluate<'_, M, N> {
 
     #[inline(always)]
     fn run<F: Block>(self) -> u32 {
-        let Self { hits, numbers, wi: all_wi, f: all_f, pdf: all_pdf, .. } = self;
+        let Self { hits, numbers, wi: all_wi, asked, f: all_f, pdf: all_pdf, .. } = self;
         let (len, zero) = (hits.len(), F::splat(0.0));
         let mut rejected = 0;
         for at in groups::<F>(len) {
@@ -225,7 +251,7 @@ impl<M: WideBxdf<N>, const N: usize> BlockKernel for Evaluate<'_, M, N> {
             let lobes = load::<F, N>(numbers, at);
             let [reflects, _] =
                 sides([wo.dot(of_hits.n), wi.dot(of_hits.n)], [local_wo.z, local_wi.z]);
-            let exists = !local_wo.z.eq(zero);
+            let exists = !local_wo.z.eq(zero) & asked.load::<F>(at).gt(zero);
             let f = M::f(lobes, local_wo, local_wi).only(reflects & exists);
             let pdf = F::select(exists, M::pdf(lobes, local_wo, local_wi), zero);
             let (f_valid, pdf_valid) = (f.is_valid(), is_density(pdf));

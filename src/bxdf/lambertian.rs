@@ -29,8 +29,6 @@ impl LambertianReflection {
 }
 
 impl WideBxdf<3> for LambertianReflection {
-    const FLAGS: BxdfFlags = BxdfFlags::REFLECTION.union(BxdfFlags::DIFFUSE);
-
     #[inline(always)]
     fn numbers(&self) -> [f32; 3] {
         self.r.to_array()
@@ -45,7 +43,7 @@ impl WideBxdf<3> for LambertianReflection {
 impl BxDF for LambertianReflection {
     #[inline]
     fn flags(&self) -> BxdfFlags {
-        Self::FLAGS
+        BxdfFlags::REFLECTION | BxdfFlags::DIFFUSE
     }
 
     #[inline]

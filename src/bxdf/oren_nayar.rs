@@ -41,8 +41,6 @@ impl OrenNayar {
 }
 
 impl WideBxdf<5> for OrenNayar {
-    const FLAGS: BxdfFlags = BxdfFlags::REFLECTION.union(BxdfFlags::DIFFUSE);
-
     #[inline(always)]
     fn numbers(&self) -> [f32; 5] {
         let [r, g, b] = self.r.to_array();
@@ -62,7 +60,7 @@ impl WideBxdf<5> for OrenNayar {
 impl BxDF for OrenNayar {
     #[inline]
     fn flags(&self) -> BxdfFlags {
-        Self::FLAGS
+        BxdfFlags::REFLECTION | BxdfFlags::DIFFUSE
     }
 
     #[inline]

@@ -1,6 +1,5 @@
 //! [`WideBxdf`]: the formulas of a model, for one pair of directions or for several at a time.
 
-use super::BxdfFlags;
 use crate::geometry::Xyz;
 use crate::geometry::trig::same_side;
 use crate::sampling::cosine_hemisphere;
@@ -12,9 +11,6 @@ use crate::spectrum::Bands;
 /// As for [`BxDF`](super::BxDF), directions are in shading coordinates, `wo.z` is not 0, and the defaults sample the
 /// cosine.
 pub trait WideBxdf<const N: usize> {
-    /// The kind of its lobes.
-    const FLAGS: BxdfFlags;
-
     /// The numbers of a lobe.
     fn numbers(&self) -> [f32; N];
 

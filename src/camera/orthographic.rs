@@ -11,8 +11,8 @@ use super::placement::{
     UP, check_lens, check_resolution, fault, point_on_lens,
 };
 use super::traits::{Camera, Read};
-use crate::geometry::{Ray, Xyz};
 use crate::geometry::float::MAX_COORDINATE;
+use crate::geometry::{Ray, Xyz};
 use crate::params::{Fault, Key, Kind, Table};
 use crate::simd::{Float, four};
 

@@ -2,12 +2,16 @@
 
 use std::sync::Arc;
 
-use glam::{UVec2, Vec2, Vec3};
+use glam::{UVec2, Vec2};
 
 use super::CameraSamples;
 use crate::geometry::Ray;
 use crate::geometry::float::MAX_COORDINATE;
 use crate::params::{Fault, Table};
+use crate::simd::{
+    Block, BlockKernel, Float, InstructionSet, LaneMask, ROW, RowMask, groups, indices,
+    lanes_within,
+};
 
 /// How a kind of camera is read, for images of this resolution.
 pub type Read = fn(&Table, UVec2) -> Result<Arc<dyn Camera>, Fault>;
@@ -71,16 +75,53 @@ impl<C: Camera + ?Sized> Camera for Arc<C> {
     }
 }
 
-/// Makes a camera's ray fit to be traced: its direction gets unit length. Returns whether that is possible, by the
-/// rules of [`Camera`].
-#[inline]
-pub(crate) fn prepare(ray: &mut Ray) -> bool {
+/// Makes a camera's rays fit to be traced: their directions get unit length. Calls `refuse` for each for which that is
+/// impossible by the rules of [`Camera`], with its index.
+pub(crate) fn prepare(
+    instruction_set: InstructionSet,
+    rays: &mut [Ray],
+    mut refuse: impl FnMut(usize, &mut Ray),
+) {
+    for (block, rays) in rays.chunks_mut(ROW).enumerate() {
+        for i in indices(instruction_set.run_block(Unfit { rays })) {
+            let ray = &mut rays[i];
+            let [is_in_range, _] = checks(bytemuck::cast::<Ray, [f32; 8]>(*ray));
+            if !(is_in_range && normalize(ray)) {
+                refuse(block * ROW + i, ray);
+            }
+        }
+    }
+}
+
+/// Tells which rays of a block are not fit to be traced as they are.
+struct Unfit<'a> {
+    rays: &'a [Ray],
+}
+
+impl BlockKernel for Unfit<'_> {
+    type Output = RowMask;
+
+    #[inline(always)]
+    fn run<F: Block>(self) -> RowMask {
+        let rays = bytemuck::cast_slice::<Ray, [f32; 8]>(self.rays);
+        let (last, mut unfit) = (rays.len() - 1, 0);
+        for at in groups::<F>(rays.len()) {
+            let [is_in_range, is_unit] = checks(F::gather(|lane| &rays[(at + lane).min(last)]));
+            let lanes = (!(is_in_range & is_unit)).bits() & lanes_within::<F>(at, rays.len());
+            unfit |= RowMask::from(lanes) << at;
+        }
+        unfit
+    }
+}
+
+/// Whether origin and ends are valid, and whether the direction has unit length.
+#[inline(always)]
+fn checks<F: Float>([ox, oy, oz, t_min, dx, dy, dz, t_max]: [F; 8]) -> [F::Mask; 2] {
+    let most = F::splat(MAX_COORDINATE);
     // A comparison with NaN is false.
-    let in_range = ray.o.abs().cmple(Vec3::splat(MAX_COORDINATE)).all()
-        && !ray.t_min.is_nan()
-        && !ray.t_max.is_nan();
-    let is_unit = (ray.d.length_squared() - 1.0).abs() <= UNIT_TOLERANCE;
-    in_range && (is_unit || normalize(ray))
+    let is_in_range = ox.abs().le(most) & oy.abs().le(most) & oz.abs().le(most);
+    let error = (dx * dx + dy * dy + dz * dz - F::splat(1.0)).abs();
+    [is_in_range & t_min.eq(t_min) & t_max.eq(t_max), error.le(F::splat(UNIT_TOLERANCE))]
 }
 
 /// Tolerance on the squared length of a unit direction: several times the rounding error of normalizing in f32.

@@ -164,17 +164,11 @@ impl Film {
     #[inline]
     pub fn add_samples(&mut self, pixel: UVec2, set: u32, radiance: &[Spectrum]) {
         let index = self.index(pixel);
-        // A copy stays in registers.
-        let mut sum = self.pixels[index];
-        for radiance in radiance {
-            if radiance.is_finite() {
-                sum.add(radiance.to_array());
-                self.variance.add(index, set, radiance.to_array(), &sum);
-            } else {
-                self.non_finite += 1;
-            }
-        }
-        self.pixels[index] = sum;
+        let sum = &mut self.pixels[index];
+        let before = sum.samples;
+        let finite = radiance.iter().filter(|radiance| radiance.is_finite());
+        self.variance.add(index, set, finite.map(|radiance| radiance.to_array()), sum);
+        self.non_finite += radiance.len() as u64 - u64::from(sum.samples - before);
     }
 
     /// Adds the first hit of a sample of `pixel`: the shading normal, the distance and the albedo. If any of it is not

@@ -132,26 +132,46 @@ impl VarianceSums {
         }
     }
 
-    /// Adds a sample of `set` to the pixel at `index`; `all` is the sum of the pixel's samples, this one included.
+    /// Adds samples of `set` to the pixel at `index`, and to `all`, the sum of the pixel's samples.
     #[inline]
-    pub fn add(&mut self, index: usize, set: u32, radiance: [f32; 3], all: &PixelSum) {
+    pub fn add(
+        &mut self,
+        index: usize,
+        set: u32,
+        radiance: impl Iterator<Item = [f32; 3]>,
+        all: &mut PixelSum,
+    ) {
+        // Copies of the sums stay in registers.
+        let mut sum = *all;
         match self {
-            Self::None => {}
+            Self::None => radiance.for_each(|radiance| sum.add(radiance)),
             Self::Samples(squares) => {
-                // Youngs and Cramer 1971, "Some results relevant to choice of sum and sum-of-product
-                // algorithms": no cancellation, and exactly 0 as long as all samples are equal.
-                let n = f64::from(all.samples);
-                let weight = 1.0 / (n * (n - 1.0)).max(1.0);
-                for ((square, x), sum) in squares[index].iter_mut().zip(radiance).zip(all.values) {
-                    let difference = n * f64::from(x) - sum;
-                    *square += weight * difference * difference;
+                let mut of_pixel = squares[index];
+                for radiance in radiance {
+                    sum.add(radiance);
+                    // Youngs and Cramer 1971, "Some results relevant to choice of sum and sum-of-product
+                    // algorithms": no cancellation, and exactly 0 as long as all samples are equal.
+                    let n = f64::from(sum.samples);
+                    let weight = 1.0 / (n * (n - 1.0)).max(1.0);
+                    for ((square, x), sum) in of_pixel.iter_mut().zip(radiance).zip(sum.values) {
+                        let difference = n * f64::from(x) - sum;
+                        *square += weight * difference * difference;
+                    }
                 }
+                squares[index] = of_pixel;
             }
             Self::Sets(sets, sums) => {
                 debug_assert!((set as usize) < *sets, "set {set} of {sets}");
-                sums[index * *sets + set as usize].add(radiance);
+                let place = index * *sets + set as usize;
+                let mut of_set = sums[place];
+                for radiance in radiance {
+                    sum.add(radiance);
+                    of_set.add(radiance);
+                }
+                sums[place] = of_set;
             }
         }
+        *all = sum;
     }
 
     /// Adds the pixel at `from` of another film to the pixel at `index`; `a` and `b` are the sums of the samples of this

@@ -145,7 +145,9 @@ impl PathTracer<'_> {
                 let (light, si) = (&scene.lights()[index], scene.interaction(ray, hit));
                 // The surface point, not the offset ray origin: `sample_li` gets the same point.
                 let at = LightHit::on_surface(if at_camera { ray.o } else { path.p }, &si);
-                let weight = rules.weighting(index).weight(path.pdf, light.pdf_li(&at));
+                // Light sampling cannot find paths from the camera or from delta events.
+                let light_pdf = if path.pdf < f32::INFINITY { light.pdf_li(&at) } else { 1.0 };
+                let weight = rules.weighting(index).weight(path.pdf, light_pdf);
                 radiance[samples[i] as usize] += Spectrum::from(path.beta) * light.le(&at) * weight;
             }
         }

@@ -6,8 +6,7 @@ use super::{Source, SurfaceInteraction, SurfacePlace, oriented};
 use crate::geometry::{Axes, Bounded, BoundedPoint, Ray, Xyz};
 use crate::shape::{TriangleMesh, triangle_normal_wide};
 use crate::simd::{
-    Block, BlockKernel, InstructionSet, LaneMask, ROW, RowMask, Rows, groups, indices,
-    lanes_within,
+    Block, BlockKernel, InstructionSet, LaneMask, ROW, RowMask, Rows, groups, indices, lanes_within,
 };
 
 /// Most hits of a block.
@@ -129,6 +128,12 @@ impl<'a> HitBlock<'a> {
         self.wo.get(i).into()
     }
 
+    /// The geometric normal at a hit.
+    #[inline]
+    pub(crate) fn ng(&self, i: usize) -> Vec3 {
+        self.n.get(i).into()
+    }
+
     /// The points.
     #[inline(always)]
     pub(crate) fn p(&self) -> &Rows<3> {
@@ -185,8 +190,9 @@ impl<'b, H: FoundHits<'b>> BlockKernel for Locate<'_, 'b, H> {
     #[inline(always)]
     fn run<F: Block>(self) -> RowMask {
         let Self { hits, found } = self;
-        let HitBlock { meshes, last_vertices, len, places, b, wo, p, p_error, n, shading_n, .. } =
-            hits;
+        let HitBlock {
+            meshes, last_vertices, len, places, b, wo, p, p_error, n, shading_n, ..
+        } = hits;
         let last = *len - 1;
         let mut of_shape = (places[0][0], Vertices::of(meshes, last_vertices, places[0][0]));
         let mut imprecise = 0;
@@ -221,11 +227,8 @@ impl<'b, H: FoundHits<'b>> BlockKernel for Locate<'_, 'b, H> {
             let weights = [b0, b1, b2];
             let bounded = Bounded::on_triangle(corners, weights);
             let (ng, is_precise) = triangle_normal_wide(corners);
-            let [ng, ns] = if has_normals {
-                oriented(ng, gather(&normals), weights)
-            } else {
-                [ng, ng]
-            };
+            let [ng, ns] =
+                if has_normals { oriented(ng, gather(&normals), weights) } else { [ng, ng] };
             b.store(at, weights);
             wo.store(at, [-dx, -dy, -dz]);
             p.store(at, bounded.p.into());

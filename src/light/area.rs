@@ -4,8 +4,9 @@ use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
+use super::block::{Incident, WideLight, sample_wide};
 use super::rectangle::Rectangle;
-use super::block::{Incident, WideLight, end_of_shadow_ray, sample_wide};
+use super::sample::end_of_shadow_ray;
 use super::{BoundingSphere, Light, LightHit, LightSample, LightSamples, Receivers};
 use crate::geometry::{BoundedPoint, Xyz, unit_wide};
 use crate::sampling::{Discrete, uniform_triangle};
@@ -160,8 +161,9 @@ impl Light for AreaLight {
             samples.set(i, self.sample_precisely(receivers.p(i), receivers.u(i)));
         };
         match self.on_rectangle() {
-            Some(rectangle) => sample_wide(&rectangle, receivers, samples)
-                .for_each(|i| precisely(i, samples)),
+            Some(rectangle) => {
+                sample_wide(&rectangle, receivers, samples).for_each(|i| precisely(i, samples))
+            }
             None => (0..receivers.len()).for_each(|i| precisely(i, samples)),
         }
     }

@@ -21,6 +21,7 @@ mod distant;
 mod light_sampler;
 mod point;
 mod rectangle;
+mod sample;
 mod sky;
 mod strategy;
 mod traits;
@@ -30,9 +31,10 @@ pub use block::{Emitted, EscapedRays, LightSamples, Receivers};
 pub use distant::DistantLight;
 pub use light_sampler::{LightChoice, LightSampler};
 pub use point::PointLight;
+pub use sample::{LightHit, LightSample};
 pub use sky::SkyLight;
 pub use strategy::LightStrategy;
-pub use traits::{BoundingSphere, Light, LightHit, LightSample, Read};
+pub use traits::{BoundingSphere, Light, Read};
 
 use crate::params::Kind;
 

@@ -58,15 +58,18 @@ impl Samples {
         self.next.pixel.y >= self.window.max.y
     }
 
-    /// Hands out the next `most`, or as many as there are, in place of what `ids` holds.
-    pub fn fill(&mut self, most: usize, ids: &mut Vec<SampleId>) {
+    /// Hands out the next `most`, or as many as there are, in place of what `ids` holds, and in `runs` how many in a row
+    /// are of one set.
+    pub fn fill(&mut self, most: usize, ids: &mut Vec<SampleId>, runs: &mut Vec<usize>) {
         ids.clear();
+        runs.clear();
         while ids.len() < most && !self.is_empty() {
             // Samples of one set differ in their index alone.
             let left = u32::try_from(most - ids.len()).unwrap_or(u32::MAX);
             let first = self.next;
             let count = (self.end - first.index).min(left);
             ids.extend((0..count).map(|i| SampleId { index: first.index + i, ..first }));
+            runs.push(count as usize);
             match first.index + count {
                 index if index < self.end => self.next.index = index,
                 _ => self.begin_set(SampleId { set: first.set + 1, ..first }),
@@ -96,10 +99,12 @@ mod tests {
             }
             for most in [1, 4, 7, 15, 1000] {
                 let mut samples = Samples::new(window, sets, pass.clone());
-                let (mut all, mut wave) = (Vec::new(), Vec::new());
+                let (mut all, mut wave, mut runs) = (Vec::new(), Vec::new(), Vec::new());
                 while !samples.is_empty() {
-                    samples.fill(most, &mut wave);
+                    samples.fill(most, &mut wave, &mut runs);
                     assert!(!wave.is_empty() && wave.len() <= most);
+                    let of_sets = wave.chunk_by(|a, b| (a.pixel, a.set) == (b.pixel, b.set));
+                    assert!(of_sets.map(<[_]>::len).eq(runs.iter().copied()), "{runs:?}");
                     all.extend_from_slice(&wave);
                 }
                 assert_eq!(all, expected, "waves of {most}, {pass:?} of {sets} sets");
@@ -113,7 +118,7 @@ mod tests {
         let window = Window::full(UVec2::ONE);
         let mut samples = Samples::new(window, 3, u32::MAX - 2..u32::MAX);
         let mut wave = Vec::new();
-        samples.fill(9, &mut wave);
+        samples.fill(9, &mut wave, &mut Vec::new());
         let places: Vec<_> = wave.iter().map(|id| (id.set, id.index)).collect();
         assert_eq!(places, [(1, 1_431_655_764), (2, 1_431_655_764)]);
         assert!(samples.is_empty());

@@ -23,6 +23,8 @@ const RHO_POINTS: usize = 16;
 pub struct Worker<'a> {
     pass: &'a Pass<'a>,
     wave: Wave<'a>,
+    /// How many samples of the wave in a row are of one set.
+    runs: Vec<usize>,
     tile: Film,
     rho_choices: [f32; RHO_POINTS],
     rho_points: [Vec2; RHO_POINTS],
@@ -45,7 +47,8 @@ impl<'a> Worker<'a> {
         }
         let wave = Wave::with_capacity(WAVE, shadow_rays, cancelled);
         let rho_choices = std::array::from_fn(|i| (i as f32 * 0.754_877_7).fract());
-        Ok(Self { pass, wave, tile, rho_choices, rho_points: lattice() })
+        let (runs, rho_points) = (Vec::with_capacity(WAVE), lattice());
+        Ok(Self { pass, wave, runs, tile, rho_choices, rho_points })
     }
 
     /// Renders the samples of the pass in a tile, wave by wave, and returns whether it took them all: once the render is
@@ -59,7 +62,7 @@ impl<'a> Worker<'a> {
             if self.wave.is_cancelled() {
                 return false;
             }
-            samples.fill(WAVE, &mut self.wave.ids);
+            samples.fill(WAVE, &mut self.wave.ids, &mut self.runs);
             self.wave.begin(scene, view, sampler);
             estimator.shade(sampler, &mut self.wave);
             if self.wave.is_cut() {
@@ -74,11 +77,11 @@ impl<'a> Worker<'a> {
     }
 
     fn add_samples(&mut self) {
-        let mut radiance = &self.wave.radiance[..];
-        for of_set in SampleId::sets(&self.wave.ids) {
-            let (samples, rest) = radiance.split_at(of_set.len());
-            self.tile.add_samples(of_set[0].pixel, of_set[0].set, samples);
-            radiance = rest;
+        let mut start = 0;
+        for run in &self.runs {
+            let SampleId { pixel, set, .. } = self.wave.ids[start];
+            self.tile.add_samples(pixel, set, &self.wave.radiance[start..][..*run]);
+            start += run;
         }
     }
 

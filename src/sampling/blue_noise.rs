@@ -4,8 +4,10 @@ use glam::{UVec2, Vec2};
 
 use super::hash::{hash, mix};
 use super::sobol::couple;
+use super::wide::{IdBlock, Lanes, WIDTH, WideSampler};
 use super::{Make, SampleId, Sampler, SamplerKind, SobolSampler};
 use crate::params::Kind;
+use crate::simd::InstructionSet;
 
 /// Sobol points distributed over the whole image, so that the errors of neighbouring pixels tend to
 /// cancel: error is blue noise in screen space. It looks finer than that of other samplers, and
@@ -46,6 +48,11 @@ impl BlueNoiseSampler {
         Self { sobol: SobolSampler::new(seed), order_seed, set_bits, side_bits }
     }
 
+    /// Other instructions than the fastest, for measuring and tests.
+    pub fn with_instruction_set(self, instruction_set: InstructionSet) -> Self {
+        Self { sobol: self.sobol.with_instruction_set(instruction_set), ..self }
+    }
+
     /// The key of the square and set that `id` belongs to: the id that [`SobolSampler`] would be
     /// given for a pixel, with index 0.
     #[inline]
@@ -78,35 +85,21 @@ impl BlueNoiseSampler {
     fn in_sequence(&self, id: SampleId, dimension: u32) -> SampleId {
         let square = self.square(id);
         SampleId {
-            index: self.first_index(id, square, dimension) | self.index_in_set(id),
+            index: self.first_index(id, square, dimension) | self.index_in_set(id.index),
             ..square
         }
     }
 
-    /// The index of the sample within its set.
-    #[inline]
-    fn index_in_set(&self, id: SampleId) -> u32 {
-        id.index & ((1 << self.set_bits) - 1)
+    /// The index within its set of the sample with this index.
+    #[inline(always)]
+    fn index_in_set(&self, index: u32) -> u32 {
+        index & ((1 << self.set_bits) - 1)
     }
 
-    /// [`Self::in_sequence`] of each id. The pixel's part is computed once per run of samples in
-    /// the same set.
-    #[inline]
-    fn all_in_sequence(
-        &self,
-        ids: &[SampleId],
-        dimension: u32,
-    ) -> impl ExactSizeIterator<Item = SampleId> {
-        let mut cached: Option<(SampleId, SampleId)> = None;
-        ids.iter().map(move |&id| {
-            let first = SampleId { index: id.index >> self.set_bits << self.set_bits, ..id };
-            let first_there = match cached {
-                Some((of, first_there)) if of == first => first_there,
-                _ => self.in_sequence(first, dimension),
-            };
-            cached = Some((first, first_there));
-            SampleId { index: first_there.index | self.index_in_set(id), ..first_there }
-        })
+    /// The first sample of the set of `id`.
+    #[inline(always)]
+    fn first_of_set(&self, id: SampleId) -> SampleId {
+        SampleId { index: id.index - self.index_in_set(id.index), ..id }
     }
 }
 
@@ -126,11 +119,44 @@ impl Sampler for BlueNoiseSampler {
     }
 
     fn fill_1d(&self, ids: &[SampleId], dimension: u32, values: &mut Vec<f32>) {
-        self.sobol.fill_1d_of(self.all_in_sequence(ids, dimension), dimension, values);
+        self.fill_values(ids, dimension, values);
     }
 
     fn fill_2d(&self, ids: &[SampleId], dimension: u32, points: &mut Vec<Vec2>) {
-        self.sobol.fill_2d_of(self.all_in_sequence(ids, dimension), dimension, points);
+        self.fill_points(ids, dimension, points);
+    }
+}
+
+impl WideSampler for BlueNoiseSampler {
+    fn instruction_set(&self) -> InstructionSet {
+        self.sobol.instruction_set()
+    }
+
+    /// Finds the place in the sequence once for a run of samples.
+    #[inline(always)]
+    fn block<const D: usize>(&self, ids: &IdBlock, dimension: u32) -> [Lanes<f32>; D] {
+        let mut first = self.first_of_set(ids.id(0));
+        let mut place = self.in_sequence(first, dimension);
+        let (mut indices, mut differ) = ([0; WIDTH], 0);
+        for (there, index) in indices.iter_mut().zip(ids.index) {
+            *there = place.index | self.index_in_set(index);
+            differ |= (index ^ first.index) >> self.set_bits;
+        }
+        let there = if ids.starts == 1 && differ == 0 {
+            IdBlock::of_set(place, indices)
+        } else {
+            let mut there = [place; WIDTH];
+            for (i, there) in there.iter_mut().enumerate() {
+                let id = ids.id(i);
+                if self.first_of_set(id) != first {
+                    first = self.first_of_set(id);
+                    place = self.in_sequence(first, dimension);
+                }
+                *there = SampleId { index: place.index | self.index_in_set(id.index), ..place };
+            }
+            IdBlock::new(&there)
+        };
+        self.sobol.block(&there, dimension)
     }
 }
 

@@ -7,13 +7,13 @@ use super::sampler::SampleId;
 /// Each word is folded in by a round of [`mix`], so that no two words can cancel. The caller does
 /// the round of the seed, once: `mixed_seed` is [`mix`] of the seed. Without that round, the pixels
 /// of one seed would be a permutation of those of the next.
-#[inline]
+#[inline(always)]
 pub fn hash(mixed_seed: u64, id: SampleId, dimension: u32) -> u64 {
     hash_in_set(hash_set(mixed_seed, id), id.index, dimension)
 }
 
 /// The part of [`hash`] that is common to a set of samples.
-#[inline]
+#[inline(always)]
 pub fn hash_set(mixed_seed: u64, id: SampleId) -> u64 {
     let pixel = mix(mixed_seed ^ (u64::from(id.pixel.x) << 32 | u64::from(id.pixel.y)));
     // Set 0 saves a round: most pixels have no other.
@@ -22,7 +22,7 @@ pub fn hash_set(mixed_seed: u64, id: SampleId) -> u64 {
 
 /// The part of [`hash`] that is particular to a sample and dimension. `set` comes from
 /// [`hash_set`].
-#[inline]
+#[inline(always)]
 pub fn hash_in_set(set: u64, index: u32, dimension: u32) -> u64 {
     mix(set.wrapping_add(u64::from(index) << 32 | u64::from(dimension)))
 }
@@ -32,7 +32,7 @@ pub fn hash_in_set(set: u64, index: u32, dimension: u32) -> u64 {
 ///
 /// SplitMix64 with its additive step and the constants of Stafford's mix 13 (Steele et al. 2014,
 /// "Fast Splittable Pseudorandom Number Generators").
-#[inline]
+#[inline(always)]
 pub fn mix(word: u64) -> u64 {
     let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -43,42 +43,7 @@ pub fn mix(word: u64) -> u64 {
 /// The upper 24 bits of `bits` as a multiple of 2⁻²⁴ in `[0, 1)`.
 ///
 /// An f32 below 1 holds no more: with more bits, rounding would give 1.
-#[inline]
+#[inline(always)]
 pub fn unit_float(bits: u32) -> f32 {
     (bits >> 8) as f32 * (1.0 / (1 << 24) as f32)
-}
-
-/// Element `i` of a pseudorandom permutation of `0..length`, selected by `key`, for i < length.
-///
-/// It is computed without a table. Rounds of keyed addition, multiplication and shift permute the
-/// next power of two. A result out of range is permuted again until it is in range (cycle walking;
-/// Kensler 2013, "Correlated Multi-Jittered Sampling", section 3). A final rotation makes the
-/// position of each element uniform.
-///
-/// With this number of rounds, the positions of pairs of elements are uniform too, within 0.5 %.
-/// Each round halves the remaining bias at the shortest lengths, and reduces it more at longer
-/// ones.
-#[inline]
-pub fn permute(i: u32, length: u32, key: u64) -> u32 {
-    let mask = u32::MAX.checked_shr((length - 1).leading_zeros()).unwrap_or(0);
-    let half = mask.count_ones().div_ceil(2).max(1);
-    let rounds = if length <= 16 { 12 } else { 8 };
-    let rotation = mix(key);
-    let mut i = i;
-    loop {
-        let mut round_key = key;
-        for _ in 0..rounds {
-            let factor = (round_key >> 32) as u32 | 1;
-            i = i.wrapping_add(round_key as u32).wrapping_mul(factor) & mask;
-            i ^= i >> half;
-            // A step of a multiplicative congruential generator (multiplier of Steele and Vigna
-            // 2021). The rotation moves its strong upper bits down to where short lengths read
-            // them.
-            round_key = round_key.wrapping_mul(0xd134_2543_de82_ef95).rotate_left(29) ^ rotation;
-        }
-        if i < length {
-            break;
-        }
-    }
-    ((u64::from(i) + (rotation >> 32)) % u64::from(length)) as u32
 }

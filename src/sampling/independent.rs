@@ -3,27 +3,27 @@
 use glam::Vec2;
 
 use super::hash::{hash, hash_in_set, hash_set, mix, unit_float};
+use super::wide::{IdBlock, Lanes, Seeds, WIDTH, WideSampler};
 use super::{Make, SampleId, Sampler, SamplerKind};
 use crate::params::Kind;
+use crate::simd::InstructionSet;
 
 /// Independent uniform random numbers. The standard error of n samples falls as 1/√n.
 #[derive(Clone, Copy, Debug)]
 pub struct IndependentSampler {
     mixed_seed: u64,
+    instruction_set: InstructionSet,
 }
 
 impl IndependentSampler {
     /// Different seeds give different images.
     pub fn new(seed: u64) -> Self {
-        Self { mixed_seed: mix(seed) }
+        Self { mixed_seed: mix(seed), instruction_set: InstructionSet::fastest() }
     }
 
-    /// Calls `each` for each run of samples in the same set, with the set's part of the hash.
-    #[inline]
-    fn for_sets(&self, ids: &[SampleId], mut each: impl FnMut(u64, &[SampleId])) {
-        for of_set in SampleId::sets(ids) {
-            each(hash_set(self.mixed_seed, of_set[0]), of_set);
-        }
+    /// Other instructions than the fastest, for measuring and tests.
+    pub fn with_instruction_set(self, instruction_set: InstructionSet) -> Self {
+        Self { instruction_set, ..self }
     }
 }
 
@@ -34,37 +34,53 @@ impl Sampler for IndependentSampler {
 
     #[inline]
     fn get_1d(&self, id: SampleId, dimension: u32) -> f32 {
-        value(hash(self.mixed_seed, id, dimension))
+        let [x, _] = point(hash(self.mixed_seed, id, dimension));
+        x
     }
 
     #[inline]
     fn get_2d(&self, id: SampleId, dimension: u32) -> Vec2 {
-        point(hash(self.mixed_seed, id, dimension))
+        point(hash(self.mixed_seed, id, dimension)).into()
     }
 
     fn fill_1d(&self, ids: &[SampleId], dimension: u32, values: &mut Vec<f32>) {
-        values.clear();
-        self.for_sets(ids, |set, of_set| {
-            values.extend(of_set.iter().map(|id| value(hash_in_set(set, id.index, dimension))));
-        });
+        self.fill_values(ids, dimension, values);
     }
 
     fn fill_2d(&self, ids: &[SampleId], dimension: u32, points: &mut Vec<Vec2>) {
-        points.clear();
-        self.for_sets(ids, |set, of_set| {
-            points.extend(of_set.iter().map(|id| point(hash_in_set(set, id.index, dimension))));
-        });
+        self.fill_points(ids, dimension, points);
     }
 }
 
-#[inline]
-fn value(bits: u64) -> f32 {
-    unit_float((bits >> 32) as u32)
+impl Seeds for IndependentSampler {
+    #[inline(always)]
+    fn seeds(&self, id: SampleId, _dimension: u32) -> [u64; 2] {
+        [hash_set(self.mixed_seed, id), 0]
+    }
 }
 
-#[inline]
-fn point(bits: u64) -> Vec2 {
-    Vec2::new(unit_float((bits >> 32) as u32), unit_float(bits as u32))
+impl WideSampler for IndependentSampler {
+    fn instruction_set(&self) -> InstructionSet {
+        self.instruction_set
+    }
+
+    #[inline(always)]
+    fn block<const D: usize>(&self, ids: &IdBlock, dimension: u32) -> [Lanes<f32>; D] {
+        let [sets, _] = ids.seeds(self, dimension);
+        let mut rows = [[0.0; WIDTH]; D];
+        for i in 0..WIDTH {
+            let p = point(hash_in_set(sets[i], ids.index[i], dimension));
+            for (row, x) in rows.iter_mut().zip(p) {
+                row[i] = x;
+            }
+        }
+        rows
+    }
+}
+
+#[inline(always)]
+fn point(bits: u64) -> [f32; 2] {
+    [unit_float((bits >> 32) as u32), unit_float(bits as u32)]
 }
 
 impl SamplerKind {

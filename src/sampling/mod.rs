@@ -33,11 +33,13 @@ mod hash;
 mod independent;
 mod kind;
 mod owen;
+mod permutation;
 mod sampler;
 mod sequence;
 mod sobol;
 mod stratified;
 mod warp;
+mod wide;
 
 pub use blue_noise::BlueNoiseSampler;
 pub use discrete::Discrete;

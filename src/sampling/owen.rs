@@ -9,54 +9,49 @@
 
 use super::hash::unit_float;
 
-/// Nested uniform scramble of a bit-reversed number; the result is bit-reversed too. Each seed
-/// gives another scramble.
-///
-/// Only the lower 32 bits of each word are used, and the upper 32 bits of the result are
-/// meaningless. 64-bit words let SSE2 multiply two of them at a time. The lower half of the seed
-/// should be well mixed.
+/// Nested uniform scramble of a bit-reversed number; the result is bit-reversed too. Each seed,
+/// which should be well mixed, gives another scramble.
 ///
 /// The steps and constants are those of the final hash in Vegdahl 2021, "Building a Better LK
 /// Hash".
-#[inline]
-pub fn scramble(reversed: u64, seed: u64) -> u64 {
-    let times = |a: u64, b: u64| u64::from(a as u32) * u64::from(b as u32);
-    let x = reversed ^ times(reversed, 0x3d20_adea);
+#[inline(always)]
+pub fn scramble(reversed: u32, seed: u32) -> u32 {
+    let x = reversed ^ reversed.wrapping_mul(0x3d20_adea);
     let x = x.wrapping_add(seed);
-    let x = times(x, u64::from(seed as u32 >> 16 | 1));
-    let x = x ^ times(x, 0x0552_6c56);
-    x ^ times(x, 0x53a2_2864)
+    let x = x.wrapping_mul(seed >> 16 | 1);
+    let x = x ^ x.wrapping_mul(0x0552_6c56);
+    x ^ x.wrapping_mul(0x53a2_2864)
 }
 
 /// The number in `[0, 1)` with these bit-reversed digits.
-#[inline]
+#[inline(always)]
 pub fn unit_float_reversed(bits: u32) -> f32 {
     unit_float(bits.reverse_bits())
 }
 
-/// Samples in a block: the unit for which [`shuffle_block`] is computed once.
+/// Samples in a block, which [`shuffle_block`] moves as a whole.
 pub const BLOCK: u32 = 16;
 
 /// The first index of the block that `index`'s block is moved to, by a nested uniform scramble of
 /// all indices. Such a scramble maps aligned runs of any power of two to aligned runs.
-#[inline]
+#[inline(always)]
 pub fn shuffle_block(index: u32, seed: u32) -> u32 {
     let reversed = (index & !(BLOCK - 1)).reverse_bits();
-    (scramble(reversed.into(), seed.into()) as u32).reverse_bits() & !(BLOCK - 1)
+    scramble(reversed, seed).reverse_bits() & !(BLOCK - 1)
 }
 
 /// The position of `index` within its shuffled block: a nested uniform scramble of its four binary
 /// digits. It takes 15 random bits (`coins`): one for the first digit, two for the second,
 /// depending on the first, and so on.
-#[inline]
-pub fn shuffle_within_block(index: u32, coins: u32) -> usize {
+#[inline(always)]
+pub fn shuffle_within_block(index: u32, coins: u32) -> u32 {
     let position = index & (BLOCK - 1);
     let coin = |number: u32| coins >> number & 1;
     let flips = coin(0) << 3
         | coin(1 + (position >> 3)) << 2
         | coin(3 + (position >> 2)) << 1
         | coin(7 + (position >> 1));
-    (position ^ flips) as usize
+    position ^ flips
 }
 
 #[cfg(test)]
@@ -71,7 +66,7 @@ mod tests {
     fn every_coin_gives_another_scramble() {
         let mut scrambles = BTreeSet::new();
         for coins in 0..1 << 15 {
-            let scramble: [usize; BLOCK as usize] =
+            let scramble: [u32; BLOCK as usize] =
                 std::array::from_fn(|index| shuffle_within_block(index as u32, coins));
             // Nested: positions that share upper digits still do.
             for digits in 1..4 {

@@ -14,42 +14,6 @@ pub struct SampleId {
     pub index: u32,
 }
 
-impl SampleId {
-    /// Splits `ids` into runs of samples in the same set of the same pixel.
-    pub(crate) fn sets(ids: &[Self]) -> impl Iterator<Item = &[Self]> {
-        Self::runs(ids, |a, b| Self::pixels_differ(a, b) | (a.set ^ b.set))
-    }
-
-    /// 0 if both are in the same pixel.
-    #[inline(always)]
-    fn pixels_differ(a: &Self, b: &Self) -> u32 {
-        (a.pixel.x ^ b.pixel.x) | (a.pixel.y ^ b.pixel.y)
-    }
-
-    /// Splits `ids` into runs in which `differ` is 0.
-    #[inline(always)]
-    fn runs(ids: &[Self], differ: impl Fn(&Self, &Self) -> u32) -> impl Iterator<Item = &[Self]> {
-        let mut ids = ids;
-        std::iter::from_fn(move || {
-            let (run, rest) = ids.split_at(Self::first_run(ids, &differ)?);
-            ids = rest;
-            Some(run)
-        })
-    }
-
-    /// Length of the first run.
-    #[inline(always)]
-    fn first_run(ids: &[Self], differ: impl Fn(&Self, &Self) -> u32) -> Option<usize> {
-        let first = ids.first()?;
-        let differ = |id: &Self| differ(id, first);
-        // Compares eight ids at a time as long as all of them agree.
-        let (eights, _) = ids.as_chunks::<8>();
-        let alike = |ids: &&[Self; 8]| ids.iter().fold(0, |all, id| all | differ(id)) == 0;
-        let start = 8 * eights.iter().take_while(alike).count();
-        Some(start + ids[start..].iter().take_while(|id| differ(id) == 0).count())
-    }
-}
-
 /// A source of sample points in the unit square.
 ///
 /// A *dimension* is one use of random numbers along a path: the position on the film, the position

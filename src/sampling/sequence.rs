@@ -14,11 +14,9 @@
 //!
 //! All numbers are bit-reversed: bit 0 is the first binary digit after the point.
 
-use super::owen::BLOCK;
-
 /// Coordinates (0, 1) of the point at `index` for `half` = 0, coordinates (2, 3) for 1;
 /// bit-reversed.
-#[inline]
+#[inline(always)]
 pub const fn pair(index: u32, half: u32) -> [u32; 2] {
     if half == 0 {
         [index, sum_first(pascal(index, [1; 4]))]
@@ -27,21 +25,9 @@ pub const fn pair(index: u32, half: u32) -> [u32; 2] {
     }
 }
 
-/// [`pair`] of the first [`BLOCK`] indices, for each half. `pair` is linear over XOR: the pairs of
-/// two indices without common bits combine by XOR.
-pub const FIRST_PAIRS: [[[u32; 2]; BLOCK as usize]; 2] = {
-    let mut pairs = [[[0; 2]; BLOCK as usize]; 2];
-    let mut i = 0;
-    while i < 2 * BLOCK {
-        pairs[(i / BLOCK) as usize][(i % BLOCK) as usize] = pair(i % BLOCK, i / BLOCK);
-        i += 1;
-    }
-    pairs
-};
-
 /// The power x of Pascal's matrix times the digits of `v`, where x is a field element; `powers` are
 /// x, x², x⁴, x⁸.
-#[inline]
+#[inline(always)]
 const fn pascal(mut v: u32, powers: [u32; 4]) -> u32 {
     v ^= times(v >> 2 & 0x3333_3333, powers[0]);
     v ^= times(v >> 4 & 0x0f0f_0f0f, powers[1]);
@@ -50,7 +36,7 @@ const fn pascal(mut v: u32, powers: [u32; 4]) -> u32 {
 }
 
 /// The product of 16 base-4 digits with a field element: 1, 2 for w, 3 for w² = w + 1.
-#[inline]
+#[inline(always)]
 const fn times(v: u32, x: u32) -> u32 {
     let (low, high) = (v & 0x5555_5555, v >> 1 & 0x5555_5555);
     match x {
@@ -61,7 +47,7 @@ const fn times(v: u32, x: u32) -> u32 {
 }
 
 /// Replaces the first bit of each digit by the sum of both.
-#[inline]
+#[inline(always)]
 const fn sum_first(v: u32) -> u32 {
     v ^ (v >> 1 & 0x5555_5555)
 }

@@ -6,9 +6,11 @@ use super::hash::{hash, mix};
 use super::owen::{
     BLOCK, scramble, shuffle_block, shuffle_within_block, unit_float_reversed as unit,
 };
-use super::sequence::{FIRST_PAIRS, pair};
+use super::sequence::pair;
+use super::wide::{IdBlock, Lanes, Seeds, WIDTH, WideSampler};
 use super::{Make, SampleId, Sampler, SamplerKind};
 use crate::params::Kind;
+use crate::simd::InstructionSet;
 
 /// Owen-scrambled Sobol points: a progressive low-discrepancy sequence, evenly distributed at any
 /// number of samples.
@@ -49,51 +51,19 @@ pub struct SobolSampler {
     value_seed: u64,
     /// Seed of the shuffles of sample order.
     order_seed: u64,
+    instruction_set: InstructionSet,
 }
 
 impl SobolSampler {
     /// Different seeds give different images.
     pub fn new(seed: u64) -> Self {
-        Self { value_seed: mix(seed), order_seed: mix(!seed) }
+        let instruction_set = InstructionSet::fastest();
+        Self { value_seed: mix(seed), order_seed: mix(!seed), instruction_set }
     }
 
-    /// The value of each id, written over the contents of `values`.
-    #[inline]
-    pub(super) fn fill_1d_of(
-        &self,
-        ids: impl Iterator<Item = SampleId>,
-        dimension: u32,
-        values: &mut Vec<f32>,
-    ) {
-        values.clear();
-        let mut block: Option<Block> = None;
-        values.extend(ids.map(|id| {
-            let block = Block::cached(&mut block, self, id, dimension);
-            unit(scramble(block.point(id.index)[0].into(), block.seeds[0]) as u32)
-        }));
-    }
-
-    /// The point of each id, written over the contents of `points`.
-    #[inline]
-    pub(super) fn fill_2d_of(
-        &self,
-        mut ids: impl ExactSizeIterator<Item = SampleId>,
-        dimension: u32,
-        points: &mut Vec<Vec2>,
-    ) {
-        points.clear();
-        let mut block: Option<Block> = None;
-        let mut lanes = Lanes::default();
-        while ids.len() > 0 {
-            let count = ids.len().min(LANES);
-            for (lane, id) in ids.by_ref().take(count).enumerate() {
-                let block = Block::cached(&mut block, self, id, dimension);
-                let [x, y] = block.point(id.index);
-                (lanes.x[lane], lanes.y[lane]) = (x.into(), y.into());
-                [lanes.x_seeds[lane], lanes.y_seeds[lane]] = block.seeds;
-            }
-            points.extend_from_slice(&lanes.scrambled()[..count]);
-        }
+    /// Other instructions than the fastest, for measuring and tests.
+    pub fn with_instruction_set(self, instruction_set: InstructionSet) -> Self {
+        Self { instruction_set, ..self }
     }
 }
 
@@ -104,110 +74,79 @@ impl Sampler for SobolSampler {
 
     #[inline]
     fn get_1d(&self, id: SampleId, dimension: u32) -> f32 {
-        let block = Block::new(self, id, dimension);
-        unit(scramble(block.point(id.index)[0].into(), block.seeds[0]) as u32)
+        self.get_2d(id, dimension).x
     }
 
     #[inline]
     fn get_2d(&self, id: SampleId, dimension: u32) -> Vec2 {
-        let block = Block::new(self, id, dimension);
-        let [x, y] = block.point(id.index);
-        let [x, y] = [scramble(x.into(), block.seeds[0]), scramble(y.into(), block.seeds[1])];
-        Vec2::new(unit(x as u32), unit(y as u32))
+        let [values, order] = self.seeds(id, dimension);
+        let [x, y] = point(id.index, (order >> 32) as u32, coins(id.index, order), dimension);
+        let [x, y] = [scramble(x, (values >> 32) as u32), scramble(y, values as u32)];
+        Vec2::new(unit(x), unit(y))
     }
 
     fn fill_1d(&self, ids: &[SampleId], dimension: u32, values: &mut Vec<f32>) {
-        self.fill_1d_of(ids.iter().copied(), dimension, values);
+        self.fill_values(ids, dimension, values);
     }
 
     fn fill_2d(&self, ids: &[SampleId], dimension: u32, points: &mut Vec<Vec2>) {
-        self.fill_2d_of(ids.iter().copied(), dimension, points);
+        self.fill_points(ids, dimension, points);
     }
+}
+
+impl Seeds for SobolSampler {
+    /// Those of the scrambles of coordinates, and of the shuffle.
+    #[inline(always)]
+    fn seeds(&self, id: SampleId, dimension: u32) -> [u64; 2] {
+        let set = SampleId { index: 0, ..id };
+        let values = hash(self.value_seed, set, dimension);
+        [values, hash(self.order_seed, set, couple(dimension).0)]
+    }
+}
+
+impl WideSampler for SobolSampler {
+    fn instruction_set(&self) -> InstructionSet {
+        self.instruction_set
+    }
+
+    #[inline(always)]
+    fn block<const D: usize>(&self, ids: &IdBlock, dimension: u32) -> [Lanes<f32>; D] {
+        let [values, orders] = ids.seeds(self, dimension);
+        let mut seeds = [[0; WIDTH]; 2];
+        let (mut order_seeds, mut all_coins) = ([0; WIDTH], [0; WIDTH]);
+        for i in 0..WIDTH {
+            (seeds[0][i], seeds[1][i]) = ((values[i] >> 32) as u32, values[i] as u32);
+            order_seeds[i] = (orders[i] >> 32) as u32;
+            all_coins[i] = coins(ids.index[i], orders[i]);
+        }
+        let mut rows = [[0.0; WIDTH]; D];
+        for i in 0..WIDTH {
+            let p = point(ids.index[i], order_seeds[i], all_coins[i], dimension);
+            for ((row, x), seeds) in rows.iter_mut().zip(p).zip(&seeds) {
+                row[i] = unit(scramble(x, seeds[i]));
+            }
+        }
+        rows
+    }
+}
+
+/// Random bits of the shuffle within the sample's block. `order` is the seed of its set.
+#[inline(always)]
+fn coins(index: u32, order: u64) -> u32 {
+    mix(order ^ u64::from(index & !(BLOCK - 1))) as u32
+}
+
+/// x and y of a sample before scrambling, bit-reversed.
+#[inline(always)]
+fn point(index: u32, order_seed: u32, coins: u32, dimension: u32) -> [u32; 2] {
+    let shuffled = shuffle_block(index, order_seed) | shuffle_within_block(index, coins);
+    pair(shuffled, couple(dimension).1)
 }
 
 /// The index of the couple that `dimension` belongs to, and which half of the couple it is.
-#[inline]
+#[inline(always)]
 pub(super) fn couple(dimension: u32) -> (u32, u32) {
     (dimension >> 2 << 1 | dimension & 1, dimension >> 1 & 1)
-}
-
-/// What an aligned block of [`BLOCK`] samples has in common in one dimension.
-struct Block {
-    /// Id of the first sample.
-    first: SampleId,
-    /// Seeds of the scrambles of x and y.
-    seeds: [u64; 2],
-    /// Random bits of the shuffle within the block.
-    coins: u32,
-    /// x and y of the shuffled block's first point, not scrambled yet, bit-reversed.
-    base: [u32; 2],
-    /// Which half of its couple the dimension is.
-    half: u32,
-}
-
-impl Block {
-    #[inline(never)]
-    fn new(sampler: &SobolSampler, id: SampleId, dimension: u32) -> Self {
-        let first = SampleId { index: id.index & !(BLOCK - 1), ..id };
-        let (couple, half) = couple(dimension);
-        let set = SampleId { index: 0, ..id };
-        let seeds = hash(sampler.value_seed, set, dimension);
-        let order = hash(sampler.order_seed, set, couple);
-        Self {
-            first,
-            seeds: [seeds >> 32, seeds & u64::from(u32::MAX)],
-            coins: mix(order ^ u64::from(first.index)) as u32,
-            base: pair(shuffle_block(id.index, (order >> 32) as u32), half),
-            half,
-        }
-    }
-
-    /// The block of `id`: the cached one if it holds `id`, otherwise a new one, which replaces it.
-    #[inline(always)]
-    fn cached<'a>(
-        cache: &'a mut Option<Self>,
-        sampler: &SobolSampler,
-        id: SampleId,
-        dimension: u32,
-    ) -> &'a Self {
-        let first = SampleId { index: id.index & !(BLOCK - 1), ..id };
-        if cache.as_ref().is_none_or(|block| block.first != first) {
-            *cache = Some(Self::new(sampler, id, dimension));
-        }
-        cache.as_ref().expect("the cache was filled above")
-    }
-
-    /// x and y of a sample of the block before scrambling, bit-reversed.
-    #[inline]
-    fn point(&self, index: u32) -> [u32; 2] {
-        let within = shuffle_within_block(index, self.coins);
-        let [x, y] = FIRST_PAIRS[self.half as usize][within];
-        [self.base[0] ^ x, self.base[1] ^ y]
-    }
-}
-
-/// Points that are scrambled together, so that the compiler vectorises the loop.
-const LANES: usize = 16;
-
-/// Structure of arrays of bit-reversed points and the seeds of their scrambles.
-#[derive(Default)]
-struct Lanes {
-    x: [u64; LANES],
-    y: [u64; LANES],
-    x_seeds: [u64; LANES],
-    y_seeds: [u64; LANES],
-}
-
-impl Lanes {
-    #[inline(never)]
-    fn scrambled(&self) -> [Vec2; LANES] {
-        let (mut x, mut y) = ([0_u32; LANES], [0_u32; LANES]);
-        for i in 0..LANES {
-            x[i] = scramble(self.x[i], self.x_seeds[i]) as u32;
-            y[i] = scramble(self.y[i], self.y_seeds[i]) as u32;
-        }
-        std::array::from_fn(|i| Vec2::new(unit(x[i]), unit(y[i])))
-    }
 }
 
 impl SamplerKind {

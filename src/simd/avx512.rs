@@ -365,8 +365,7 @@ impl Block for Avx512 {
         // SAFETY: as above; there are sixteen pairs of numbers (`Vec2` is `repr(C)`).
         unsafe {
             let (low, high) = (_mm512_loadu_ps(from), _mm512_loadu_ps(from.add(16)));
-            let even =
-                _mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
+            let even = _mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
             let odd = _mm512_or_si512(even, _mm512_set1_epi32(1));
             [
                 Self(_mm512_permutex2var_ps(low, even, high)),
@@ -411,8 +410,7 @@ impl Block for Avx512 {
     fn scatter([a, b, c, d, e, f, g, h]: [Self; 8], to: &mut [[f32; 8]]) {
         let to = &mut to[..LANES];
         // Quarter q of vector i: the first or last four numbers of record 4 q + i.
-        let (first, last) =
-            (transpose4(a.0, b.0, c.0, d.0), transpose4(e.0, f.0, g.0, h.0));
+        let (first, last) = (transpose4(a.0, b.0, c.0, d.0), transpose4(e.0, f.0, g.0, h.0));
         for i in 0..4 {
             // SAFETY: as above; there is room for sixteen records of eight numbers.
             unsafe {

@@ -84,7 +84,8 @@ impl Float for Vec4 {
     }
     #[inline(always)]
     fn floor(self) -> Self {
-        self.floor()
+        // Without SSE4, glam's gives 0 for -0.
+        self.floor().copysign(self)
     }
     #[inline(always)]
     fn copysign(self, sign: Self) -> Self {
@@ -152,9 +153,7 @@ impl Block for Vec4 {
     }
     #[inline(always)]
     fn gather<'a>(record: impl Fn(usize) -> &'a [f32; 8]) -> [Self; 8] {
-        let half = |first: usize| {
-            transposed(four(|i| Self::from_slice(&record(i)[first..])))
-        };
+        let half = |first: usize| transposed(four(|i| Self::from_slice(&record(i)[first..])));
         let ([a, b, c, d], [e, f, g, h]) = (half(0), half(4));
         [a, b, c, d, e, f, g, h]
     }

@@ -224,18 +224,14 @@ impl Block for F32x8 {
             // Pairs 0, 1, 4, 5 and 2, 3, 6, 7.
             let even = _mm256_permute2f128_ps::<0x20>(low, high);
             let odd = _mm256_permute2f128_ps::<0x31>(low, high);
-            [
-                Self(_mm256_shuffle_ps::<0x88>(even, odd)),
-                Self(_mm256_shuffle_ps::<0xdd>(even, odd)),
-            ]
+            [Self(_mm256_shuffle_ps::<0x88>(even, odd)), Self(_mm256_shuffle_ps::<0xdd>(even, odd))]
         }
     }
     #[inline(always)]
     fn gather<'a>(record: impl Fn(usize) -> &'a [f32; 8]) -> [Self; 8] {
         let at = |lane: usize| record(lane).as_ptr();
         // SAFETY: as above; each record has eight numbers.
-        let rows =
-            unsafe { transpose8([at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)]) };
+        let rows = unsafe { transpose8([at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)]) };
         let [a, b, c, d, e, f, g, h] = rows;
         [Self(a), Self(b), Self(c), Self(d), Self(e), Self(f), Self(g), Self(h)]
     }

@@ -11,7 +11,6 @@
 // Intrinsics, loads and stores of whole vectors, and calls to functions with `#[target_feature]`.
 #![allow(unsafe_code)]
 
-mod angle;
 mod f32x4;
 mod flips;
 mod float;
@@ -21,6 +20,8 @@ mod portable;
 mod row;
 mod scalar;
 mod twice;
+#[cfg(test)]
+mod tests;
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
@@ -31,8 +32,7 @@ mod f32x8;
 #[cfg(target_arch = "x86_64")]
 mod transpose;
 
-pub use angle::eighth_turn;
-pub use float::{Bits, Block, Float, LaneMask, four};
+pub use float::{Bits, Block, Float, LaneMask, eighth_turn, four};
 pub use instruction_set::{BlockKernel, InstructionSet, InstructionSetError};
-pub use row::{ROW, Row, RowMask, Rows, groups, indices, lanes_within};
 pub use lanes::{Kernel, LANES, LaneIndices, Lanes, Mask, Vector, splat3};
+pub use row::{ROW, Row, RowMask, Rows, groups, indices, lanes_within};

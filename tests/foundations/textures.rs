@@ -8,7 +8,7 @@ use lobe::glam::{Vec2, Vec3};
 use lobe::interaction::{Partials, SurfaceInteraction};
 use lobe::material::Material;
 use lobe::params::{AnyKey, Key, Value};
-use lobe::texture::{ConstantTexture, Texture, TextureKey};
+use lobe::texture::{ConstantTexture, Texture, TextureHandle, TextureKey};
 use lobe::{MatteMaterial, Spectrum};
 
 const RED: Spectrum = Spectrum::new(0.75, 0.25, 0.125);
@@ -50,36 +50,27 @@ fn everything_that_has_a_value_is_a_texture() {
     }
 }
 
-/// A constant is recognised in any wrapper, so that its surface takes the fast path: shared, behind a
-/// pointer, in a shared material.
-/// Caught: constants looked for by type; a constant lobe for an infinite value, which hits refuse and count.
+/// A constant is recognised in any wrapper, so that no texture is asked for it: shared, or behind a pointer.
+/// Caught: constants looked for by type; a closure taken for one.
 #[test]
 fn constants_are_recognised_everywhere() {
     let constant: Arc<dyn Texture<Spectrum>> = Arc::new(ConstantTexture::new(RED));
-    let lobe = MatteMaterial::new(RED).constant_lambertian();
-    assert!(lobe.is_some());
-    let clothes = [
-        MatteMaterial::new(constant.clone()),
-        MatteMaterial::new(Arc::new(constant.clone())),
-        MatteMaterial::new(ConstantTexture::new(RED))
-            .with_sigma(Arc::new(ConstantTexture::new(0.0))),
-        MatteMaterial::new(constant.into_handle()).with_sigma(0.0),
-    ];
-    for (i, material) in clothes.iter().enumerate() {
-        assert_eq!(material.constant_lambertian(), lobe, "clothes {i}");
+    for (i, handle) in [
+        RED.into_handle(),
+        constant.clone().into_handle(),
+        Arc::new(constant.clone()).into_handle(),
+        ConstantTexture::new(RED).into_handle(),
+        Arc::new(ConstantTexture::new(RED)).into_handle(),
+        constant.into_handle().into_handle(),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        assert_eq!(handle.constant(), Some(RED), "wrapper {i}");
+        assert!(matches!(handle, TextureHandle::Constant(_)), "wrapper {i}");
     }
-    let material: Arc<dyn Material> = Arc::new(MatteMaterial::new(RED));
-    assert_eq!(Arc::new(material).constant_lambertian(), lobe);
-    for other in [
-        MatteMaterial::new(RED).with_sigma(1.0),
-        MatteMaterial::new(RED).with_bump(0.0),
-        MatteMaterial::new(|_: &SurfaceInteraction| RED),
-        MatteMaterial::new(Spectrum::splat(f32::NAN)),
-        MatteMaterial::new(Spectrum::splat(f32::INFINITY)),
-        MatteMaterial::new(Spectrum::BLACK),
-    ] {
-        assert_eq!(other.constant_lambertian(), None);
-    }
+    let closure = (|_: &SurfaceInteraction| RED).into_handle();
+    assert_eq!(closure.constant(), None);
 }
 
 /// The key of a texture accepts any name, and constants in its range.

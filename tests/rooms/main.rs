@@ -28,10 +28,10 @@ use modules::Files;
 
 /// The rooms from the ground up.
 const ROOMS: [&str; 23] = [
+    "simd",
     "spectrum",
     "clock",
     "file",
-    "simd",
     "geometry",
     "params",
     "sampling",

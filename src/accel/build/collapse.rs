@@ -4,8 +4,8 @@ use arrayvec::ArrayVec;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::node::Bvh2Node;
 
-use crate::simd::LANES;
 use crate::accel::tree::Aabb;
+use crate::simd::LANES;
 
 /// Costs of visiting a node and a leaf in the surface area heuristic: about the same, as measured.
 const NODE_COST: f32 = 1.0;

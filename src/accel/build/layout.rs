@@ -6,8 +6,8 @@ use arrayvec::ArrayVec;
 use glam::Vec3;
 
 use super::collapse::Choices;
-use crate::simd::LANES;
 use crate::accel::tree::{Aabb, Child, Node};
+use crate::simd::LANES;
 
 /// The items of a tree, and how leaves are made of them.
 pub trait Contents {

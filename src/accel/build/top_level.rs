@@ -9,8 +9,8 @@ use super::binary_tree::BinaryTreeBuilder;
 use super::collapse::{Collapse, TOO_MANY};
 use super::layout::{Contents, Root, assign_slots, lay_out};
 use super::partition::MAX_PARTS;
-use crate::simd::LANES;
 use crate::accel::tree::{Aabb, Node};
+use crate::simd::LANES;
 
 /// Most levels of nodes above the treelets, with the root.
 pub const TOP_LEVELS: usize = 6;

@@ -10,8 +10,8 @@ use super::duplicates::{Primitive, group_duplicates};
 use super::layout::{Contents, Root, lay_out};
 use super::primitives::Primitives;
 use super::top_level::TOP_LEVELS;
-use crate::simd::LANES;
 use crate::accel::tree::{Aabb, Leaves, MAX_DEPTH, MAX_TRIANGLES, Node, Triangle};
+use crate::simd::LANES;
 
 /// Most levels of nodes in a treelet. If all leaves are equally deep, three levels fewer have room for all triangles
 /// that a tree can have. So at least three levels are left to the heuristic.

@@ -8,9 +8,9 @@ use super::hit::Hit;
 use super::packet::Packet;
 use super::single_ray::{AnyHit, ClosestHit, Found, Start};
 use super::stack::Stack;
-use crate::simd::{Kernel, LANES, Lanes};
 use crate::accel::tree::Bvh;
 use crate::geometry::Ray;
+use crate::simd::{Kernel, LANES, Lanes};
 
 /// What a batch is asked for: [`Hit`] for the closest hit of each ray, `bool` for whether it hits anything.
 pub trait Answer: Sized {

@@ -4,8 +4,8 @@ use super::frustum::Frustum;
 use super::packet::Packet;
 use super::single_ray::{AnyHit, ClosestHit, Start};
 use super::stack::Stack;
-use crate::simd::{LANES, Lanes, Mask};
 use crate::accel::tree::{Bvh, Child, Leaf};
+use crate::simd::{LANES, Lanes, Mask};
 
 /// Minimum mean rays per leaf for beam tracing to pay: of several packets, or of one that asks for any hit, which single
 /// rays find soon.

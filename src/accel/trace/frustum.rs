@@ -2,9 +2,9 @@
 
 use super::leaf_test::permute3;
 use super::packet::{Packet, lane3};
-use crate::simd::{LANES, LaneMask, Lanes, Mask, splat3};
 use crate::accel::tree::{Bvh, Leaf, Node};
 use crate::shape::ShearedRay;
+use crate::simd::{LANES, LaneMask, Lanes, Mask, splat3};
 
 /// The frustum around a beam of one to [`MAX_PACKETS`] packets: the space between four side planes and two ends.
 ///

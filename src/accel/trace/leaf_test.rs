@@ -1,8 +1,8 @@
 //! [`LeafTest`]: one ray against the triangles of a leaf.
 
-use crate::simd::{LaneMask, Mask, Vector, splat3};
 use crate::accel::tree::Leaf;
 use crate::shape::{Crossing, Edges, ShearedRay, TriangleHit};
+use crate::simd::{LaneMask, Mask, Vector, splat3};
 
 /// A ray prepared for the triangles of leaves, all of which it tests at once.
 pub struct LeafTest<V> {

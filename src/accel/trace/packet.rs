@@ -4,10 +4,10 @@ use glam::Vec3A;
 
 use super::hit::Hit;
 use super::leaf_test::{LeafTest, intersect_triangle};
-use crate::simd::{LANES, LaneMask, Lanes, Mask, Vector, splat3};
 use crate::accel::tree::{Bvh, Leaf, Node};
 use crate::geometry::Ray;
 use crate::shape::{Crossing, Edges, ShearedRay, TriangleHit, longest_axis};
+use crate::simd::{LANES, LaneMask, Lanes, Mask, Vector, splat3};
 
 /// Sixteen rays whose directions have the same largest axis, with the same sign, and the nearest hit of each so far.
 pub struct Packet<'a, L> {

@@ -7,10 +7,10 @@
 use super::leaf_test::{LeafTest, intersect_triangle};
 use super::slabs::Slabs;
 use super::stack::Stack;
-use crate::simd::{Kernel, LANES, Lanes, Mask, Vector};
 use crate::accel::tree::{Bvh, Child, Leaf};
 use crate::geometry::Ray;
 use crate::shape::{ShearedRay, TriangleHit};
+use crate::simd::{Kernel, LANES, Lanes, Mask, Vector};
 
 /// Where traversal begins: at the root, or for rays that leave a beam further down.
 #[derive(Clone, Copy)]

@@ -2,10 +2,10 @@
 
 use glam::Vec3A;
 
-use crate::simd::{LANES, LaneMask, Lanes, Mask, splat3};
 use crate::accel::tree::Node;
 use crate::geometry::Ray;
 use crate::geometry::float::gamma;
+use crate::simd::{LANES, LaneMask, Lanes, Mask, splat3};
 
 /// A ray prepared for boxes.
 ///

@@ -2,8 +2,8 @@
 
 use std::cell::RefCell;
 
-use crate::simd::{Bits, LANES, Lanes, Mask};
 use crate::accel::tree::MAX_DEPTH;
+use crate::simd::{Bits, LANES, Lanes, Mask};
 
 /// Worst case: each level leaves all children but one on the stack, and the last push writes a whole vector.
 const CAPACITY: usize = (LANES - 1) * MAX_DEPTH + LANES;

@@ -100,14 +100,12 @@ impl<'a> Wave<'a> {
         view.generate_rays(scene.instruction_set(), ids, film, lens, rays);
         radiance.clear();
         radiance.resize(rays.len(), Spectrum::BLACK);
-        for (ray, radiance) in rays.iter_mut().zip(&mut *radiance) {
-            if !camera::prepare(ray) {
-                // A negative t_max hits nothing, and the film rejects NaN, whatever is added to it.
-                *ray = Ray { t_max: -1.0, ..Ray::new(Vec3::ZERO, Vec3::Z) };
-                *radiance = Spectrum::splat(f32::NAN);
-                counters.refused_camera_rays += 1;
-            }
-        }
+        camera::prepare(scene.instruction_set(), rays, |i, ray| {
+            // A negative t_max hits nothing, and the film rejects NaN, whatever is added to it.
+            *ray = Ray { t_max: -1.0, ..Ray::new(Vec3::ZERO, Vec3::Z) };
+            radiance[i] = Spectrum::splat(f32::NAN);
+            counters.refused_camera_rays += 1;
+        });
         counters.camera_rays += rays.len() as u64;
         // The previous contents are overwritten.
         hits.resize(rays.len(), Hit::MISS);

@@ -88,7 +88,9 @@ impl ByMaterial {
     /// Each material and its hits: a range of [`order`](Self::order).
     pub fn runs(&self) -> impl Iterator<Item = (u32, Range<usize>)> {
         let mut start = 0;
-        self.runs.iter().map(move |&(material, end)| (material, std::mem::replace(&mut start, end)..end))
+        self.runs
+            .iter()
+            .map(move |&(material, end)| (material, std::mem::replace(&mut start, end)..end))
     }
 
     /// The hits, material by material.
@@ -104,7 +106,8 @@ mod tests {
     #[test]
     fn hits_are_sorted_and_keep_their_order() {
         let mut by_material = ByMaterial::default();
-        for (wave, materials) in [[3, 1, 3, 3, 0, 1], [5, 5, 5, 5, 5, 2], [0; 6]].iter().enumerate() {
+        for (wave, materials) in [[3, 1, 3, 3, 0, 1], [5, 5, 5, 5, 5, 2], [0; 6]].iter().enumerate()
+        {
             by_material.sort(6, 6, |hit| materials[hit]);
             let mut found = Vec::new();
             for (material, range) in by_material.runs() {

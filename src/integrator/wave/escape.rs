@@ -34,11 +34,19 @@ impl Escaped {
     }
 
     /// Finds the radiance of all infinite lights for paths that leave their origins along `wi`.
-    pub fn find(&mut self, rules: &PathRules, scene: &Scene, len: usize, wi: &Rows<3>) {
+    pub fn find(
+        &mut self,
+        rules: &PathRules,
+        scene: &Scene,
+        len: usize,
+        wi: &Rows<3>,
+        needs_pdf: bool,
+    ) {
         let Self { origin, beta, pdf, found, emitted, .. } = self;
         *found = Rows::splat(0.0);
         for &light in &rules.infinite {
-            scene.lights()[light].escaped_block(&EscapedRays { len, origin, wi }, emitted);
+            scene.lights()[light]
+                .escaped_block(&EscapedRays { len, origin, wi, needs_pdf }, emitted);
             let weighting = rules.weighting(light);
             let weigh = Weigh { len, beta, pdf, found, emitted, weighting };
             scene.instruction_set().run_block(weigh);
@@ -121,7 +129,7 @@ pub fn add_escaped(
         let gather = Gather { paths, states, rays, at_camera, escaped: &mut escaped };
         scene.instruction_set().run_block(gather);
         let wi = escaped.wi;
-        escaped.find(rules, scene, paths.len(), &wi);
+        escaped.find(rules, scene, paths.len(), &wi, !at_camera);
         for (i, &path) in paths.iter().enumerate() {
             radiance[samples[path as usize] as usize] += Spectrum::from(escaped.found.get(i));
         }

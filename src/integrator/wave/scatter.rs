@@ -117,7 +117,7 @@ impl<'a> Vertices<'a> {
             scene.lights()[light].sample_li_block(&receivers, &mut self.lights);
         }
         let Self { hits, bsdfs, lights, f, pdf, is_weighed, paths, .. } = self;
-        bsdfs.f_and_pdf(hits, &lights.wi, f, pdf);
+        bsdfs.f_and_pdf(hits, &lights.wi, [&lights.pdf, is_weighed], f, pdf);
         let carry = Carry { hits, lights, f, pdf, is_weighed, paths, states, samples, shadow };
         scene.instruction_set().run_block(carry);
     }
@@ -151,8 +151,8 @@ impl<'a> Vertices<'a> {
         let mut samples = LightSamples::new();
         while left != 0 {
             let light = drawn[left.trailing_zeros() as usize];
-            let same = (0..self.len)
-                .fold(0, |same, i| same | RowMask::from(drawn[i] == light) << i);
+            let same =
+                (0..self.len).fold(0, |same, i| same | RowMask::from(drawn[i] == light) << i);
             for (to, from) in indices(same).enumerate() {
                 p.set(to, self.hits.p().get(from));
                 u[to] = self.u[from];
@@ -201,23 +201,14 @@ impl<'a> Vertices<'a> {
             eta_scale,
         });
         if rules.extends_path(depth) {
-            let push = PushNext {
-                hits,
-                directions,
-                paths,
-                samples,
-                mask,
-                from: ahead,
-                eta_scale,
-                next,
-            };
+            let push =
+                PushNext { hits, directions, paths, samples, mask, from: ahead, eta_scale, next };
             set.run_block(push);
             return;
         }
         // Only infinite lights are left to be hit: a shadow ray tests whether they are visible.
-        ahead.find(rules, scene, hits.len(), &directions.wi);
-        let push =
-            PushEscaped { hits, directions, paths, samples, mask, from: ahead, shadow };
+        ahead.find(rules, scene, hits.len(), &directions.wi, true);
+        let push = PushEscaped { hits, directions, paths, samples, mask, from: ahead, shadow };
         set.run_block(push);
     }
 }
@@ -329,7 +320,8 @@ impl BlockKernel for Advance<'_> {
 
     #[inline(always)]
     fn run<F: Block>(self) -> RowMask {
-        let Self { hits, directions, paths, states, roulette, specular_only, next, eta_scale } = self;
+        let Self { hits, directions, paths, states, roulette, specular_only, next, eta_scale } =
+            self;
         let (zero, one) = (F::splat(0.0), F::splat(1.0));
         let mut all = 0;
         for at in groups::<F>(hits.len()) {

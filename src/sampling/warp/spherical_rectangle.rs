@@ -80,7 +80,8 @@ impl SphericalRectangle {
     /// matters for a small rectangle far from zero.
     pub fn inverse(&self, p: Vec3) -> Vec2 {
         let moved = p.as_dvec3() - self.corner;
-        let place = DVec2::from(self.seen.start) + DVec2::from(self.axes.map(|axis| moved.dot(axis)));
+        let place =
+            DVec2::from(self.seen.start) + DVec2::from(self.axes.map(|axis| moved.dot(axis)));
         self.seen.inverse(place).as_vec2().clamp(Vec2::ZERO, Vec2::splat(ONE_MINUS_EPSILON))
     }
 }

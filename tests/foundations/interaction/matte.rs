@@ -66,14 +66,12 @@ fn sigma_chooses_the_lobe() {
     assert!(close(f(&textured), rough(80.0)));
 }
 
-/// The reflectance is brought into [0, 1] per band, and a black surface has no lobe. Caught: no clamp, at
-/// hits or in the constant lobe; a lobe of R = 0.
+/// The reflectance is brought into [0, 1] per band, and a black surface has no lobe. Caught: no clamp; a lobe of R = 0.
 #[test]
 fn reflectance_is_clamped() {
     let expected = LambertianReflection::new(Spectrum::new(1.0, 0.0, 0.5)).f(WO, WI);
     let bright = MatteMaterial::new([2.0, -1.0, 0.5]);
     assert!(close(f(&bright), expected));
-    assert!(close(bright.constant_lambertian().unwrap().f(WO, WI), expected));
     assert!(close(
         f(&MatteMaterial::new(Arc::new(OfU(|u| Spectrum::new(u + 1.0, -u, 0.5))))),
         expected
@@ -83,25 +81,6 @@ fn reflectance_is_clamped() {
             assert_eq!(bsdf.num_components(BxdfFlags::all()), 0);
             assert!(bsdf.f(Vec3::Z, Vec3::Z, BxdfFlags::all()).is_black());
         });
-    }
-}
-
-/// Only a surface with the same Lambertian lobe at every hit declares it. Caught: a constant sigma other than 0 taken for
-/// smooth, which shades Oren-Nayar as Lambertian; a bumpy surface taken for flat.
-#[test]
-fn only_lambertian_surfaces_declare_a_constant_lobe() {
-    let matte = || MatteMaterial::new([0.6, 0.3, 0.2]);
-    let constant = |material: MatteMaterial| material.constant_lambertian().map(|l| l.f(WO, WI));
-    let lambert = LambertianReflection::new(Spectrum::new(0.6, 0.3, 0.2)).f(WO, WI);
-    assert_eq!(constant(matte()), Some(lambert));
-    assert_eq!(constant(matte().with_sigma(0.0)), Some(lambert));
-    assert_eq!(constant(matte().with_sigma(1e-3)), None);
-    assert_eq!(constant(matte().with_sigma(20.0)), None);
-    assert_eq!(constant(matte().with_sigma(Arc::new(OfU(|_| 0.0)))), None);
-    assert_eq!(constant(matte().with_bump(0.0)), None);
-    assert_eq!(constant(MatteMaterial::new(Arc::new(OfU(Spectrum::splat)))), None);
-    for absorbing in [[0.0; 3], [f32::NAN; 3]] {
-        assert_eq!(constant(MatteMaterial::new(absorbing)), None);
     }
 }
 

@@ -16,7 +16,7 @@ fn stratum(sampler: &StratifiedSampler, length: u32, set: u32, place: u32) -> us
     (x as usize).min(length as usize - 1)
 }
 
-/// Every place has each stratum equally often. Caught: `permute` with two
+/// Every place has each stratum equally often. Caught: the permutation with two
 /// rounds and without its last rotation.
 #[test]
 fn places_are_uniform() {
@@ -40,7 +40,7 @@ fn places_are_uniform() {
 }
 
 /// Every two places have each pair of strata equally often, seen through the difference of the two
-/// modulo the length. Caught: `permute` with four rounds, off by 12 % at length 4 and, where places lie
+/// modulo the length. Caught: the permutation with four rounds, off by 12 % at length 4 and, where places lie
 /// half of a length of 64 or 256 apart, by 83 and 96 %; with eight rounds at length 4.
 #[test]
 fn pairs_are_uniform() {

@@ -108,30 +108,6 @@ fn scrambles_are_random() {
     }
 }
 
-/// `fill` gives the same as single calls of `get`, in any order. Caught: a block kept when the set
-/// changes.
-#[test]
-fn fills_equal_gets() {
-    let mut ids: Vec<_> = (0..100).map(|i| id(3, 0, i)).collect();
-    ids.extend((0..60).map(|i| id(4 + i / 7, i / 20, i % 7)));
-    ids.extend((0..60).map(|i| id(3, i / 3, (i * 37) << 20)));
-    let (mut values, mut points) = (vec![0.5; 3], vec![Vec2::ONE; 1000]);
-    for count in [0, 1, 15, 16, 17, 220] {
-        for dimension in [0, 1, 2, 3, u32::MAX] {
-            for sampler in super::samplers::samplers(16, 4) {
-                let (name, sampler) = sampler;
-                sampler.fill_1d(&ids[..count], dimension, &mut values);
-                sampler.fill_2d(&ids[..count], dimension, &mut points);
-                let one: Vec<_> =
-                    ids[..count].iter().map(|&id| sampler.get_1d(id, dimension)).collect();
-                let two: Vec<_> =
-                    ids[..count].iter().map(|&id| sampler.get_2d(id, dimension)).collect();
-                assert!(values == one && points == two, "{name}: {count} of dimension {dimension}");
-            }
-        }
-    }
-}
-
 /// Estimates of a known integral by n samples in each of many pixels.
 fn estimates(f: impl Fn([Vec2; 3]) -> f64, n: u32) -> impl Iterator<Item = f64> {
     let sampler = SobolSampler::new(11);
