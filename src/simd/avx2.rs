@@ -40,8 +40,6 @@ impl Lanes for Avx2 {
 
     type Block = F32x8;
 
-    const USES_PACKETS: bool = true;
-
     const SKIPS_EMPTY: bool = true;
 
     #[inline(always)]

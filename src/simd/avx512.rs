@@ -63,8 +63,6 @@ impl Lanes for Avx512 {
 
     type Block = Self;
 
-    const USES_PACKETS: bool = true;
-
     const SKIPS_EMPTY: bool = false;
 
     #[inline(always)]

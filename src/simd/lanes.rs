@@ -63,9 +63,6 @@ pub trait Lanes: Vector {
     /// The vector for loops over blocks of numbers: the widest that is one register.
     type Block: Block;
 
-    /// Whether tracing packets of rays is faster than tracing them one by one.
-    const USES_PACKETS: bool;
-
     /// Whether a branch that skips `compress` for an empty mask is faster than calling it.
     const SKIPS_EMPTY: bool;
 

@@ -30,8 +30,6 @@ impl Lanes for Portable {
 
     type Block = Vec4;
 
-    const USES_PACKETS: bool = false;
-
     const SKIPS_EMPTY: bool = true;
 
     #[inline(always)]
