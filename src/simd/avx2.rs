@@ -139,10 +139,7 @@ impl LaneIndices for Twice<Indices8> {
             let words = _mm256_set1_epi64x(words as i64);
             let low = _mm256_set_epi32(12, 12, 8, 8, 4, 4, 0, 0);
             let high = _mm256_set_epi32(28, 28, 24, 24, 20, 20, 16, 16);
-            Self(
-                Indices8(_mm256_srlv_epi32(words, low)),
-                Indices8(_mm256_srlv_epi32(words, high)),
-            )
+            Self(Indices8(_mm256_srlv_epi32(words, low)), Indices8(_mm256_srlv_epi32(words, high)))
         }
     }
 }

@@ -1,7 +1,7 @@
 //! [`Vector`] and [`Lanes`]: what traversal asks of vectors of f32. [`Kernel`]: code that is generic over them.
 
-use super::float::{Block, Float, LaneMask};
 use super::flips::flipped;
+use super::float::{Block, Float, LaneMask};
 
 /// Number of lanes of a [`Lanes`]: children per node, most triangles per leaf, rays per packet.
 pub const LANES: usize = 16;

@@ -19,9 +19,9 @@ mod lanes;
 mod portable;
 mod row;
 mod scalar;
-mod twice;
 #[cfg(test)]
 mod tests;
+mod twice;
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;

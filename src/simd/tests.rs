@@ -166,7 +166,10 @@ fn every_instruction_set_gives_the_bits_of_f32() {
             let lanes = set.run(&(), &mut (), &(), WithLanes(Everything { a: &a, b: &b }));
             for found in [blocks, lanes].map(one_nan) {
                 for (row, (found, expected)) in found.iter().zip(&expected).enumerate() {
-                    assert_eq!(found, expected, "{set}, trial {trial}, operation {row}: {a:?}, {b:?}");
+                    assert_eq!(
+                        found, expected,
+                        "{set}, trial {trial}, operation {row}: {a:?}, {b:?}"
+                    );
                 }
             }
         }

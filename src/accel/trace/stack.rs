@@ -52,7 +52,13 @@ impl Stack {
         distances: L,
         flip: u32,
     ) -> usize {
-        self.push(len, mask, L::load(bytemuck::cast_ref::<_, [f32; LANES]>(children)), distances, flip)
+        self.push(
+            len,
+            mask,
+            L::load(bytemuck::cast_ref::<_, [f32; LANES]>(children)),
+            distances,
+            flip,
+        )
     }
 
     /// As [`Stack::push_children`], with `first + slot` in place of the child of a slot.
@@ -72,14 +78,7 @@ impl Stack {
     }
 
     #[inline(always)]
-    fn push<L: Lanes>(
-        &mut self,
-        len: usize,
-        mask: Mask,
-        ids: L,
-        distances: L,
-        flip: u32,
-    ) -> usize {
+    fn push<L: Lanes>(&mut self, len: usize, mask: Mask, ids: L, distances: L, flip: u32) -> usize {
         if L::SKIPS_EMPTY && mask == 0 {
             return len;
         }

@@ -28,7 +28,9 @@ impl<'a> Leaf<'a> {
     pub fn vertices<V: Vector>(self, axis: usize) -> V {
         // SAFETY: at least HEADER + LANES words come after the first `2 * vertices`, since `new` checked the length, and
         // a vector has at most LANES. Slicing in place of the pointer checks each of three loads per leaf again.
-        V::load(unsafe { from_raw_parts(self.words.as_ptr().add(axis % 3 * self.vertices), V::LANES) })
+        V::load(unsafe {
+            from_raw_parts(self.words.as_ptr().add(axis % 3 * self.vertices), V::LANES)
+        })
     }
 
     /// Which vertices the first, second and third corner of all triangles are.
