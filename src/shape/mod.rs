@@ -21,6 +21,7 @@ mod mesh;
 mod obj;
 mod rectangle;
 mod triangle;
+mod watertight;
 
 pub use check::MeshError;
 pub use kind::{Load, Read};
@@ -29,8 +30,10 @@ pub(crate) use mesh::shading_normal_wide;
 pub use obj::{
     ObjAttribute, ObjError, ObjMesh, ObjProblem, ObjReport, SkippedLines, parse_obj, read_obj,
 };
-pub(crate) use triangle::{FAR, triangle_normal_wide};
-pub use triangle::{ShearedRay, TriangleHit, triangle_normal};
+pub(crate) use triangle::triangle_normal_wide;
+pub use triangle::{TriangleHit, triangle_normal};
+pub use watertight::ShearedRay;
+pub(crate) use watertight::{Crossing, Edges, longest_axis};
 
 use crate::params::Kind;
 

@@ -1,8 +1,10 @@
-//! Triangles: geometric normals, and the watertight ray-triangle test.
+//! Triangles: geometric normals, and the test of one ray against one triangle.
 
-use glam::{DVec3, Vec3, Vec3A, Vec3Swizzles};
+use std::hint::select_unpredictable;
 
-use crate::geometry::float::gamma;
+use glam::{DVec3, Vec3, Vec3A};
+
+use super::watertight::{Crossing, Edges, ShearedRay, longest_axis};
 use crate::geometry::{Ray, Xyz};
 use crate::simd::Float;
 
@@ -36,18 +38,6 @@ pub(crate) fn triangle_normal_wide<F: Float>([p0, p1, p2]: [Xyz<F>; 3]) -> (Xyz<
     (n / length2.sqrt(), is_precise)
 }
 
-/// A ray prepared for the triangle test: the permutation of axes and the shear that turn its
-/// direction into +z.
-#[derive(Clone, Copy, Debug)]
-pub struct ShearedRay {
-    /// The origin, in permuted coordinates.
-    pub(crate) o: [f32; 3],
-    /// The axes that become x, y and z. z is the axis along which the direction is longest.
-    pub(crate) axes: [usize; 3],
-    /// The shear: factors of z that are added to x and to y, and the factor from z to t.
-    pub(crate) shear: [f32; 3],
-}
-
 /// Intersection of a ray with a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriangleHit {
@@ -65,31 +55,21 @@ impl ShearedRay {
         // By reference, so that coordinates are read in place.
         let (d, o): (&[f32; 3], &[f32; 3]) = (ray.d.as_ref(), ray.o.as_ref());
         let [x, y, z] = axes;
-        let shear = Vec3A::new(-d[x], -d[y], 1.0) / d[z];
-        Self { o: [o[x], o[y], o[z]], axes, shear: shear.to_array() }
+        Self::permuted(axes, [o[x], o[y], o[z]], [d[x], d[y], d[z]])
     }
 
     /// The axes that become x, y and z: a cyclic permutation.
     #[inline]
     pub(crate) fn axes_of(ray: &Ray) -> [usize; 3] {
-        let size = ray.d.abs();
-        if size.x > size.y && size.x > size.z {
-            [1, 2, 0]
-        } else if size.y > size.z {
-            [2, 0, 1]
-        } else {
-            [0, 1, 2]
-        }
+        let [x, y] = longest_axis(ray.d.to_array());
+        let pick = |a: usize, b: usize, c: usize| {
+            select_unpredictable(x, a, select_unpredictable(y, b, c))
+        };
+        [pick(1, 2, 0), pick(2, 0, 1), pick(0, 1, 2)]
     }
 
     /// The intersection with t in `[t_min, t_max]`. `None` if there is none, or if t is within its
     /// error bound of zero: such a hit may lie behind the origin.
-    ///
-    /// The watertight test of Woop, Benthin and Wald 2013, "Watertight Ray/Triangle Intersection",
-    /// in the form of PBRT 3rd edition, section 3.6.2. In the sheared space the ray is the z axis,
-    /// and the signs of three edge functions tell on which side of it each edge passes. Triangles
-    /// that share an edge compute the same numbers for it, so no ray slips between them. An edge
-    /// function that is exactly zero is recomputed in f64, in which the products are exact.
     #[inline]
     pub fn intersect(&self, corners: &[Vec3; 3], t_min: f32, t_max: f32) -> Option<TriangleHit> {
         let corners = corners.map(|corner| corner.to_array());
@@ -105,83 +85,31 @@ impl ShearedRay {
         t_min: f32,
         t_max: f32,
     ) -> Option<TriangleHit> {
-        // One permuted coordinate of all three corners, relative to the origin of the ray.
-        let along = |i: usize| {
-            let axis = self.axes[i];
-            Vec3A::from(coordinates(axis)) - Vec3A::splat(self.o[i])
-        };
-        let (x, y, z) = (along(0), along(1), along(2));
-        let x = x + self.shear[0] * z;
-        let y = y + self.shear[1] * z;
-        // The edge function of the edge opposite to each corner.
-        let mut e = x.yzx() * y.zxy() - y.yzx() * x.zxy();
-        if e.cmpeq(Vec3A::ZERO).any() {
-            e = edges_f64(x, y);
+        let corners = self.corners(coordinates);
+        let [x, y, z] = corners;
+        let mut edges = Edges::new(x, y);
+        if edges.any_zero() {
+            edges = edges_f64(x, y);
         }
-        if e.cmplt(Vec3A::ZERO).any() && e.cmpgt(Vec3A::ZERO).any() {
+        if !edges.inside() {
             return None;
         }
-        let determinant = sum(e);
-        if determinant == 0.0 {
-            return None;
-        }
-        // Depth before t: products with the scaled z could exceed the range of f32.
-        let depth = sum(e * z) / determinant;
-        let t = depth * self.shear[2];
-        let in_range = t >= t_min
-            && t <= t_max
-            && t > 0.0
-            && depth.abs() > least_depth([x, y, z], e, determinant);
-        in_range.then(|| TriangleHit { t, b: (e / determinant).to_array() })
+        let crossing = Crossing::new(edges, z, self);
+        let is_hit = crossing.is_within(t_min, t_max) && crossing.is_in_front(corners);
+        is_hit.then(|| {
+            let b = Vec3A::from(edges.0) / crossing.determinant;
+            TriangleHit { t: crossing.t, b: b.to_array() }
+        })
     }
 }
 
-/// The sum, in the order x, y, z.
-#[inline]
-fn sum(v: Vec3A) -> f32 {
-    v.x + v.y + v.z
-}
-
-/// The edge functions in f64: twice the signed areas of (origin, p, q) in the xy plane. The
-/// products are exact, so the signs are.
+/// The edge functions in f64, in which the products are exact, so that the signs are.
 #[cold]
-fn edges_f64(x: Vec3A, y: Vec3A) -> Vec3A {
-    let edge = |p: usize, q: usize| {
-        let difference = f64::from(x[p]) * f64::from(y[q]) - f64::from(y[p]) * f64::from(x[q]);
+fn edges_f64(x: [f32; 3], y: [f32; 3]) -> Edges<f32> {
+    let Edges(exact) = Edges::new(x.map(f64::from), y.map(f64::from));
+    Edges(exact.map(|e| {
         // A non-zero value must not underflow to zero in f32.
-        let rounded = difference as f32;
-        if rounded == 0.0 && difference != 0.0 {
-            f32::MIN_POSITIVE.copysign(difference as f32)
-        } else {
-            rounded
-        }
-    };
-    Vec3A::new(edge(1, 2), edge(2, 0), edge(0, 1))
-}
-
-/// Ratio of distance to depth range beyond which a triangle surely lies in front of the origin, or
-/// behind it.
-///
-/// Beyond it the error bound of the depth is not applied. The bound grows with the square of the
-/// distance: at 10⁵ sizes of a triangle it would reject all hits, and closer than that those on
-/// triangles seen edge-on. But if all corners lie in front, so does the hit. The bound's other
-/// purpose is to reject hits on the neighbours of the triangle that a ray leaves, and these are
-/// near.
-pub(crate) const FAR: f32 = 8.0;
-
-/// Error bound of the depth: a hit at or below it may lie behind the origin (PBRT 3rd edition,
-/// section 3.9.6, which scales z to be t). Zero for triangles beyond [`FAR`].
-#[inline]
-fn least_depth([x, y, z]: [Vec3A; 3], e: Vec3A, determinant: f32) -> f32 {
-    let [max_x, max_y, max_z] = [x, y, z].map(|v| v.abs().max_element());
-    let delta_z = gamma(3) * max_z;
-    let (low, high) = (z.min_element(), z.max_element());
-    if FAR * (high - low) + delta_z < low.max(-high) {
-        return 0.0;
-    }
-    let delta_x = gamma(5) * (max_x + max_z);
-    let delta_y = gamma(5) * (max_y + max_z);
-    let delta_e = 2.0 * (gamma(2) * max_x * max_y + delta_y * max_x + delta_x * max_y);
-    let max_e = e.abs().max_element();
-    3.0 * (gamma(3) * max_e * max_z + delta_e * max_z + delta_z * max_e) / determinant.abs()
+        let rounded = e as f32;
+        if rounded == 0.0 && e != 0.0 { f32::MIN_POSITIVE.copysign(rounded) } else { rounded }
+    }))
 }

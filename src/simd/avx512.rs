@@ -44,35 +44,12 @@ impl From<__m512> for Avx512 {
 }
 
 impl Vector for Avx512 {
-    const LANES: usize = LANES;
-
     type Indices = Indices512;
 
-    instructions! {
-        add(other) -> Self = _mm512_add_ps;
-        sub(other) -> Self = _mm512_sub_ps;
-        mul(other) -> Self = _mm512_mul_ps;
-        div(other) -> Self = _mm512_div_ps;
-        min(other) -> Self = _mm512_min_ps;
-        max(other) -> Self = _mm512_max_ps;
-        abs() -> Self = _mm512_abs_ps;
-        le(other) -> Mask = _mm512_cmp_ps_mask::<_CMP_LE_OQ>;
-        eq(other) -> Mask = _mm512_cmp_ps_mask::<_CMP_EQ_OQ>;
-    }
-    #[inline(always)]
-    fn splat(x: f32) -> Self {
-        // SAFETY: as above.
-        Self(unsafe { _mm512_set1_ps(x) })
-    }
-    #[inline(always)]
-    unsafe fn load_unaligned(x: *const f32) -> Self {
-        // SAFETY: as above; the caller promises that the numbers are readable.
-        Self(unsafe { _mm512_loadu_ps(x) })
-    }
     #[inline(always)]
     fn lane(self, lane: u32) -> f32 {
         // SAFETY: as above.
-        unsafe { _mm512_cvtss_f32(_mm512_maskz_compress_ps(1 << lane, self.0)) }
+        unsafe { _mm512_cvtss_f32(_mm512_permutexvar_ps(_mm512_set1_epi32(lane as i32), self.0)) }
     }
     #[inline(always)]
     fn permute(self, indices: Indices512) -> Self {
@@ -85,8 +62,6 @@ impl Lanes for Avx512 {
     type Narrow = Self;
 
     type Block = Self;
-
-    const USES_PACKETS: bool = true;
 
     const SKIPS_EMPTY: bool = false;
 
@@ -111,27 +86,10 @@ impl Lanes for Avx512 {
         unsafe { with_features(data, scratch, input, kernel) }
     }
 
-    instructions! {
-        lt(other) -> Mask = _mm512_cmp_ps_mask::<_CMP_LT_OQ>;
-    }
-    #[inline(always)]
-    fn load(x: &[f32; LANES]) -> Self {
-        // SAFETY: as above; the array has all lanes.
-        Self(unsafe { _mm512_loadu_ps(x.as_ptr()) })
-    }
-    #[inline(always)]
-    fn transpose(records: &[[f32; 8]; LANES]) -> [Self; 8] {
-        Self::gather(|i| &records[i])
-    }
     #[inline(always)]
     fn reduce_min(self) -> f32 {
         // SAFETY: as above.
         unsafe { _mm512_reduce_min_ps(self.0) }
-    }
-    #[inline(always)]
-    fn reduce_max(self) -> f32 {
-        // SAFETY: as above.
-        unsafe { _mm512_reduce_max_ps(self.0) }
     }
     #[inline(always)]
     fn reduce_min_max([a, b, c, d]: [Self; 4]) -> [[f32; 4]; 2] {
@@ -154,75 +112,26 @@ impl Lanes for Avx512 {
         [of(0), of(2)]
     }
     #[inline(always)]
-    fn to_array(self) -> [f32; LANES] {
-        let mut x = [0.0; LANES];
-        // SAFETY: as above; the array has room for all lanes.
-        unsafe { _mm512_storeu_ps(x.as_mut_ptr(), self.0) };
-        x
-    }
-    #[inline(always)]
-    fn blend(self, mask: Mask, other: Self) -> Self {
-        // SAFETY: as above.
-        Self(unsafe { _mm512_mask_mov_ps(self.0, mask, other.0) })
-    }
-    #[inline(always)]
-    fn broadcast(self, lane: u32) -> Self {
-        // SAFETY: as above.
-        Self(unsafe { _mm512_permutexvar_ps(_mm512_set1_epi32(lane as i32), self.0) })
-    }
-    #[inline(always)]
-    fn broadcast_narrow(self, lane: u32) -> Self {
-        self.broadcast(lane)
-    }
-    #[inline(always)]
     fn flip(self, flip: u32) -> Self {
         // SAFETY: as above.
-        Self(unsafe { _mm512_permutexvar_ps(flips(flip), self.0) })
-    }
-    #[inline(always)]
-    fn compress_children(
-        self,
-        mask: Mask,
-        children: &[u32; LANES],
-        flip: u32,
-        ids: &mut [u32; LANES],
-        distances: &mut [f32; LANES],
-    ) {
-        // SAFETY: as above; the arrays have all lanes.
         unsafe {
-            let children = _mm512_loadu_si512(children.as_ptr().cast());
-            let children = _mm512_permutexvar_epi32(flips(flip), children);
-            let children = _mm512_maskz_compress_epi32(mask, children);
-            _mm512_storeu_si512(ids.as_mut_ptr().cast(), children);
-            _mm512_storeu_ps(distances.as_mut_ptr(), _mm512_maskz_compress_ps(mask, self.0));
+            let lanes = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
+            let flipped = _mm512_xor_si512(lanes, _mm512_set1_epi32(flip as i32));
+            Self(_mm512_permutexvar_ps(flipped, self.0))
         }
     }
     #[inline(always)]
-    fn compress_slots(
-        self,
-        mask: Mask,
-        first: u32,
-        flip: u32,
-        ids: &mut [u32; LANES],
-        distances: &mut [f32; LANES],
-    ) {
-        // SAFETY: as above; the arrays have all lanes.
-        unsafe {
-            let slots = _mm512_add_epi32(flips(flip), _mm512_set1_epi32(first as i32));
-            let slots = _mm512_maskz_compress_epi32(mask, slots);
-            _mm512_storeu_si512(ids.as_mut_ptr().cast(), slots);
-            _mm512_storeu_ps(distances.as_mut_ptr(), _mm512_maskz_compress_ps(mask, self.0));
-        }
+    fn flip_mask(mask: __mmask16, _flip: u32) -> Mask {
+        mask.into()
     }
-}
-
-/// `i ^ flip` in each lane i.
-#[inline(always)]
-fn flips(flip: u32) -> __m512i {
-    // SAFETY: as above.
-    unsafe {
-        let lanes = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
-        _mm512_xor_si512(lanes, _mm512_set1_epi32(flip as i32))
+    #[inline(always)]
+    fn compress([a, b]: [Self; 2], mask: Mask, _flip: u32, to: [&mut [f32; LANES]; 2]) {
+        let mask = mask as __mmask16;
+        // SAFETY: as above; the arrays have room for all lanes.
+        unsafe {
+            _mm512_storeu_ps(to[0].as_mut_ptr(), _mm512_maskz_compress_ps(mask, a.0));
+            _mm512_storeu_ps(to[1].as_mut_ptr(), _mm512_maskz_compress_ps(mask, b.0));
+        }
     }
 }
 
@@ -311,10 +220,12 @@ impl LaneIndices for Indices512 {
     }
 }
 
-impl LaneMask for Mask {
+impl LaneMask for __mmask16 {
+    const LANES: u32 = 16;
+
     #[inline(always)]
-    fn splat(is: bool) -> Self {
-        if is { Self::MAX } else { 0 }
+    fn from_bits(bits: u32) -> Self {
+        bits as Self
     }
     #[inline(always)]
     fn bits(self) -> u32 {
@@ -383,7 +294,7 @@ impl Bits for Bits16 {
 }
 
 impl Float for Avx512 {
-    type Mask = Mask;
+    type Mask = __mmask16;
     type Bits = Bits16;
 
     instructions! {
@@ -392,9 +303,9 @@ impl Float for Avx512 {
         abs() -> Self = _mm512_abs_ps;
         sqrt() -> Self = _mm512_sqrt_ps;
         floor() -> Self = _mm512_roundscale_ps::<{ _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC }>;
-        lt(other) -> Mask = _mm512_cmp_ps_mask::<_CMP_LT_OQ>;
-        le(other) -> Mask = _mm512_cmp_ps_mask::<_CMP_LE_OQ>;
-        eq(other) -> Mask = _mm512_cmp_ps_mask::<_CMP_EQ_OQ>;
+        lt(other) -> __mmask16 = _mm512_cmp_ps_mask::<_CMP_LT_OQ>;
+        le(other) -> __mmask16 = _mm512_cmp_ps_mask::<_CMP_LE_OQ>;
+        eq(other) -> __mmask16 = _mm512_cmp_ps_mask::<_CMP_EQ_OQ>;
     }
     #[inline(always)]
     fn splat(x: f32) -> Self {
@@ -403,7 +314,7 @@ impl Float for Avx512 {
     }
     #[inline(always)]
     fn constant(x: f64) -> Self {
-        <Self as Float>::splat(x as f32)
+        Self::splat(x as f32)
     }
     #[inline(always)]
     fn copysign(self, sign: Self) -> Self {
@@ -414,7 +325,7 @@ impl Float for Avx512 {
         }
     }
     #[inline(always)]
-    fn select(mask: Mask, yes: Self, no: Self) -> Self {
+    fn select(mask: __mmask16, yes: Self, no: Self) -> Self {
         // SAFETY: as above.
         unsafe { Self(_mm512_mask_mov_ps(no.0, mask, yes.0)) }
     }

@@ -7,9 +7,11 @@ use glam::{BVec4A, Mat4, Vec2, Vec4};
 use super::float::{Bits, Block, Float, LaneMask, four};
 
 impl LaneMask for BVec4A {
+    const LANES: u32 = 4;
+
     #[inline(always)]
-    fn splat(is: bool) -> Self {
-        if is { Self::TRUE } else { Self::FALSE }
+    fn from_bits(bits: u32) -> Self {
+        Self::from_array(four(|i| bits >> i & 1 == 1))
     }
     #[inline(always)]
     fn bits(self) -> u32 {

@@ -5,8 +5,9 @@ use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 use glam::Vec2;
 
+use super::avx2::Indices8;
 use super::float::{Bits, Block, Float, LaneMask};
-use super::lanes::{LaneIndices, Mask, Vector};
+use super::lanes::Vector;
 use super::transpose::{pair, transpose4, transpose8};
 
 /// Eight f32 in one register. Exists only while code runs under `Avx2::call`: each `unsafe` below executes an
@@ -14,58 +15,12 @@ use super::transpose::{pair, transpose4, transpose8};
 #[derive(Clone, Copy)]
 pub struct F32x8(pub(super) __m256);
 
-/// Defines methods that take two vectors and are one instruction.
-macro_rules! instructions {
-    ($($name:ident = $instruction:ident;)*) => {$(
-        #[inline(always)]
-        fn $name(self, other: Self) -> Self {
-            // SAFETY: the processor has AVX2, by the promise of the type.
-            unsafe { Self($instruction(self.0, other.0)) }
-        }
-    )*};
-}
-
 impl Vector for F32x8 {
-    const LANES: usize = 8;
-
     type Indices = Indices8;
 
-    instructions! {
-        add = _mm256_add_ps;
-        sub = _mm256_sub_ps;
-        mul = _mm256_mul_ps;
-        div = _mm256_div_ps;
-        min = _mm256_min_ps;
-        max = _mm256_max_ps;
-    }
-    #[inline(always)]
-    fn splat(x: f32) -> Self {
-        // SAFETY: as above.
-        unsafe { Self(_mm256_set1_ps(x)) }
-    }
-    #[inline(always)]
-    unsafe fn load_unaligned(x: *const f32) -> Self {
-        // SAFETY: as above; the caller promises that the numbers are readable.
-        unsafe { Self(_mm256_loadu_ps(x)) }
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        // SAFETY: as above.
-        unsafe { Self(_mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0)) }
-    }
-    #[inline(always)]
-    fn le(self, other: Self) -> Mask {
-        // SAFETY: as above.
-        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0)) as Mask }
-    }
-    #[inline(always)]
-    fn eq(self, other: Self) -> Mask {
-        // SAFETY: as above.
-        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_EQ_OQ>(self.0, other.0)) as Mask }
-    }
     #[inline(always)]
     fn lane(self, lane: u32) -> f32 {
-        // SAFETY: as above.
+        // SAFETY: the processor has AVX2, by the promise of the type.
         unsafe {
             let lane = _mm256_castsi128_si256(_mm_cvtsi32_si128(lane as i32));
             _mm256_cvtss_f32(_mm256_permutevar8x32_ps(self.0, lane))
@@ -75,22 +30,6 @@ impl Vector for F32x8 {
     fn permute(self, indices: Indices8) -> Self {
         // SAFETY: as above.
         unsafe { Self(_mm256_permutevar8x32_ps(self.0, indices.0)) }
-    }
-}
-
-/// [`LaneIndices`] of the first eight lanes: in the lowest four bits of each lane, the bits above unspecified.
-#[derive(Clone, Copy)]
-pub struct Indices8(__m256i);
-
-impl LaneIndices for Indices8 {
-    #[inline(always)]
-    fn unpack([even, odd]: [u32; 2]) -> Self {
-        let words = u64::from(even) | u64::from(odd) << 32;
-        // SAFETY: as above.
-        unsafe {
-            let shifts = _mm256_set_epi32(12, 12, 8, 8, 4, 4, 0, 0);
-            Self(_mm256_srlv_epi32(_mm256_set1_epi64x(words as i64), shifts))
-        }
     }
 }
 
@@ -150,10 +89,16 @@ impl Not for Mask8 {
 }
 
 impl LaneMask for Mask8 {
+    const LANES: u32 = 8;
+
     #[inline(always)]
-    fn splat(is: bool) -> Self {
+    fn from_bits(bits: u32) -> Self {
         // SAFETY: as above.
-        unsafe { Self(_mm256_castsi256_ps(_mm256_set1_epi32(-i32::from(is)))) }
+        unsafe {
+            let lanes = _mm256_set_epi32(128, 64, 32, 16, 8, 4, 2, 1);
+            let chosen = _mm256_and_si256(_mm256_set1_epi32(bits as i32), lanes);
+            Self(_mm256_castsi256_ps(_mm256_cmpeq_epi32(chosen, lanes)))
+        }
     }
     #[inline(always)]
     fn bits(self) -> u32 {
@@ -212,7 +157,7 @@ impl Float for F32x8 {
     }
     #[inline(always)]
     fn constant(x: f64) -> Self {
-        <Self as Float>::splat(x as f32)
+        Self::splat(x as f32)
     }
     #[inline(always)]
     fn sqrt(self) -> Self {

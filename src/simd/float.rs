@@ -74,8 +74,16 @@ pub trait Float:
 pub trait LaneMask:
     Copy + BitAnd<Output = Self> + BitOr<Output = Self> + BitXor<Output = Self> + Not<Output = Self>
 {
+    /// Number of lanes.
+    const LANES: u32;
+
     /// All lanes, or none.
-    fn splat(is: bool) -> Self;
+    #[inline(always)]
+    fn splat(is: bool) -> Self {
+        Self::from_bits(if is { u32::MAX } else { 0 })
+    }
+    /// The inverse of [`bits`](Self::bits).
+    fn from_bits(bits: u32) -> Self;
     /// One bit per lane, lane 0 lowest.
     fn bits(self) -> u32;
     /// Whether any lane does.

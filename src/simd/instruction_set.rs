@@ -79,7 +79,7 @@ fn available_names() -> String {
 }
 
 impl InstructionSet {
-    /// Plain Rust, which every processor runs. On x86-64 the compiler makes SSE2 of it.
+    /// Glam's vectors of four, which every processor runs: SSE2 on x86-64.
     pub const PORTABLE: Self = Self(Known::Portable);
 
     /// Those that this processor has, the fastest last: [`PORTABLE`](Self::PORTABLE); `avx2`, which is AVX2 with

@@ -1,15 +1,13 @@
 //! [`Vector`] and [`Lanes`]: what traversal asks of vectors of f32. [`Kernel`]: code that is generic over them.
-//!
-//! Each operation is the IEEE 754 operation in each lane, and no multiply-add is fused. So every implementation
-//! gives the same bits as scalar f32 code.
 
-use super::float::Block;
+use super::flips::flipped;
+use super::float::{Block, Float, LaneMask};
 
 /// Number of lanes of a [`Lanes`]: children per node, most triangles per leaf, rays per packet.
 pub const LANES: usize = 16;
 
 /// One bit per lane, lane 0 lowest.
-pub type Mask = u16;
+pub type Mask = u32;
 
 /// Code that is written once for all instruction sets.
 ///
@@ -45,34 +43,11 @@ pub trait LaneIndices: Copy {
     fn unpack(words: [u32; 2]) -> Self;
 }
 
-/// A vector of eight or sixteen f32: what the ray-triangle test needs.
-pub trait Vector: Copy {
-    /// Number of lanes.
-    const LANES: usize;
-
+/// A vector of eight or sixteen f32: what the test of one ray against a leaf needs.
+pub trait Vector: Block {
     /// Operand of [`Vector::permute`].
     type Indices: LaneIndices;
 
-    /// The same number in all lanes.
-    fn splat(x: f32) -> Self;
-    /// Loads consecutive numbers; `x` need not be aligned.
-    ///
-    /// # Safety
-    /// `Self::LANES` numbers must be readable from `x` on.
-    unsafe fn load_unaligned(x: *const f32) -> Self;
-    fn add(self, other: Self) -> Self;
-    fn sub(self, other: Self) -> Self;
-    fn mul(self, other: Self) -> Self;
-    fn div(self, other: Self) -> Self;
-    /// The smaller number; `other` where either is NaN.
-    fn min(self, other: Self) -> Self;
-    /// The larger number; `other` where either is NaN.
-    fn max(self, other: Self) -> Self;
-    fn abs(self) -> Self;
-    /// Lanes where `self <= other`; false where either is NaN.
-    fn le(self, other: Self) -> Mask;
-    /// Lanes where both are equal; false where either is NaN.
-    fn eq(self, other: Self) -> Mask;
     /// The number in one lane.
     fn lane(self, lane: u32) -> f32;
     /// Lane `i` of the result is lane `indices[i]` of `self`.
@@ -88,10 +63,7 @@ pub trait Lanes: Vector {
     /// The vector for loops over blocks of numbers: the widest that is one register.
     type Block: Block;
 
-    /// Whether tracing packets of rays is faster than tracing them one by one.
-    const USES_PACKETS: bool;
-
-    /// Whether a branch that skips `compress_children` for an empty mask is faster than calling it.
+    /// Whether a branch that skips `compress` for an empty mask is faster than calling it.
     const SKIPS_EMPTY: bool;
 
     /// Runs a kernel in a function of its own that is compiled for this vector's instructions.
@@ -102,18 +74,19 @@ pub trait Lanes: Vector {
         kernel: K,
     ) -> K::Output;
 
-    fn load(x: &[f32; LANES]) -> Self;
-    fn to_array(self) -> [f32; LANES];
-    /// Number i of all records, for each i.
-    fn transpose(records: &[[f32; 8]; LANES]) -> [Self; 8];
-    /// Lanes where `self < other`; false where either is NaN.
-    fn lt(self, other: Self) -> Mask;
-    /// `other` in the lanes of `mask`, `self` elsewhere.
-    fn blend(self, mask: Mask, other: Self) -> Self;
+    #[inline(always)]
+    fn to_array(self) -> [f32; LANES] {
+        let mut x = [0.0; LANES];
+        self.store(&mut x);
+        x
+    }
     /// The smallest number; unspecified if one is NaN.
     fn reduce_min(self) -> f32;
     /// The largest number; unspecified if one is NaN.
-    fn reduce_max(self) -> f32;
+    #[inline(always)]
+    fn reduce_max(self) -> f32 {
+        -(-self).reduce_min()
+    }
     /// The smallest number of each of four vectors, and the largest; unspecified if one is NaN.
     #[inline(always)]
     fn reduce_min_max([a, b, c, d]: [Self; 4]) -> [[f32; 4]; 2] {
@@ -122,72 +95,39 @@ pub trait Lanes: Vector {
             [a.reduce_max(), b.reduce_max(), c.reduce_max(), d.reduce_max()],
         ]
     }
-    /// The number of one lane in all lanes.
-    fn broadcast(self, lane: u32) -> Self;
-    /// The same as a [`Lanes::Narrow`].
-    fn broadcast_narrow(self, lane: u32) -> Self::Narrow;
 
     // Children are visited in the order of lanes `i ^ flip`, where `flip` depends on the ray's direction. Where
     // permuting vectors is cheap, `flip` permutes them before they are compared. Elsewhere it is a no-op, and
     // `flip_mask` permutes the result of the comparison instead.
 
     /// Lane `i` of the result is lane `i ^ flip` of `self`; or `self`, where [`Lanes::flip_mask`] does the work.
-    fn flip(self, flip: u32) -> Self;
-    /// Flips the mask that comparing [flipped](Lanes::flip) vectors gave, if those were left as they are.
     #[inline(always)]
-    fn flip_mask(mask: Mask, _flip: u32) -> Mask {
-        mask
+    fn flip(self, _flip: u32) -> Self {
+        self
     }
-    /// For each lane of `mask`, lowest first, writes the child of slot `lane ^ flip` to `ids` and that lane of `self`
-    /// to `distances`. `self` is [flipped](Lanes::flip). What comes behind as many entries as `mask` has lanes is
-    /// unspecified.
+    /// The bits of the mask that comparing [flipped](Lanes::flip) vectors gave; flips them if those were left as they are.
     #[inline(always)]
-    fn compress_children(
-        self,
-        mask: Mask,
-        children: &[u32; LANES],
-        flip: u32,
-        ids: &mut [u32; LANES],
-        distances: &mut [f32; LANES],
-    ) {
-        let child = |lane: u32| children[(lane ^ flip) as usize % LANES];
-        compress(mask, self.to_array(), child, ids, distances);
+    fn flip_mask(mask: Self::Mask, flip: u32) -> Mask {
+        if mask.any() { flipped(mask.bits(), flip) } else { 0 }
     }
-    /// As [`Lanes::compress_children`], with `first + slot` in place of the child of a slot.
+    /// Writes the lanes of `mask`, lowest first, next to each other, of two vectors. All are flipped. What comes behind as
+    /// many entries as `mask` has lanes is unspecified.
     #[inline(always)]
-    fn compress_slots(
-        self,
-        mask: Mask,
-        first: u32,
-        flip: u32,
-        ids: &mut [u32; LANES],
-        distances: &mut [f32; LANES],
-    ) {
-        compress(mask, self.to_array(), |lane| first + (lane ^ flip), ids, distances);
-    }
-}
-
-/// Writes id and distance of each lane of `mask` next to each other.
-#[inline(always)]
-fn compress(
-    mut mask: Mask,
-    from: [f32; LANES],
-    id: impl Fn(u32) -> u32,
-    ids: &mut [u32; LANES],
-    distances: &mut [f32; LANES],
-) {
-    for (to_id, to_distance) in ids.iter_mut().zip(distances) {
-        if mask == 0 {
-            return;
+    fn compress([a, b]: [Self; 2], mut mask: Mask, flip: u32, to: [&mut [f32; LANES]; 2]) {
+        let ([a, b], [to_a, to_b]) = ([a.to_array(), b.to_array()], to);
+        for (to_a, to_b) in to_a.iter_mut().zip(to_b) {
+            if mask == 0 {
+                return;
+            }
+            let lane = (mask.trailing_zeros() ^ flip) as usize % LANES;
+            (*to_a, *to_b) = (a[lane], b[lane]);
+            mask &= mask - 1;
         }
-        let lane = mask.trailing_zeros();
-        (*to_id, *to_distance) = (id(lane), from[lane as usize % LANES]);
-        mask &= mask - 1;
     }
 }
 
 /// Each coordinate in all lanes of its vector. Spelt out, because `map` is not always inlined.
 #[inline(always)]
-pub fn splat3<L: Vector>([x, y, z]: [f32; 3]) -> [L; 3] {
-    [L::splat(x), L::splat(y), L::splat(z)]
+pub fn splat3<F: Float>([x, y, z]: [f32; 3]) -> [F; 3] {
+    [F::splat(x), F::splat(y), F::splat(z)]
 }

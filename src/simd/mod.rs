@@ -12,6 +12,7 @@
 #![allow(unsafe_code)]
 
 mod f32x4;
+mod flips;
 mod float;
 mod instruction_set;
 mod lanes;
@@ -20,6 +21,7 @@ mod row;
 mod scalar;
 #[cfg(test)]
 mod tests;
+mod twice;
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
@@ -27,8 +29,6 @@ mod avx2;
 mod avx512;
 #[cfg(target_arch = "x86_64")]
 mod f32x8;
-#[cfg(target_arch = "x86_64")]
-mod mask_tables;
 #[cfg(target_arch = "x86_64")]
 mod transpose;
 

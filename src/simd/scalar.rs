@@ -5,9 +5,11 @@ use glam::Vec2;
 use super::float::{Bits, Block, Float, LaneMask};
 
 impl LaneMask for bool {
+    const LANES: u32 = 1;
+
     #[inline(always)]
-    fn splat(is: bool) -> Self {
-        is
+    fn from_bits(bits: u32) -> Self {
+        bits & 1 == 1
     }
     #[inline(always)]
     fn bits(self) -> u32 {

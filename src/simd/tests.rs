@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, Vec2};
 
-use super::{Bits, Block, BlockKernel, Float, InstructionSet, LaneMask};
+use super::{Bits, Block, BlockKernel, Float, InstructionSet, Kernel, LaneMask, Lanes};
 
 /// Sixteen pairs of numbers at a time, through every operation.
 struct Everything<'a> {
@@ -84,6 +84,7 @@ impl BlockKernel for Everything<'_> {
                 let mask = masks[i];
                 let lanes = (1_u64 << F::LANES) - 1;
                 assert_eq!(mask.any(), mask.bits() != 0);
+                assert_eq!(F::Mask::from_bits(mask.bits()).bits(), mask.bits());
                 assert_eq!(mask.all(), u64::from(mask.bits()) == lanes);
                 F::select(mask, F::splat(1.0), F::splat(0.0))
             };
@@ -103,6 +104,21 @@ impl BlockKernel for Everything<'_> {
             }
         }
         all
+    }
+}
+
+/// The same with the vectors of traversal, which may be pairs of those of blocks.
+struct WithLanes<'a>(Everything<'a>);
+
+impl Kernel for WithLanes<'_> {
+    type Input = ();
+    type Data = ();
+    type Scratch = ();
+    type Output = Results;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, (): &(), (): &(), (): &mut ()) -> Results {
+        self.0.run::<L>()
     }
 }
 
@@ -146,9 +162,15 @@ fn every_instruction_set_gives_the_bits_of_f32() {
         let b: [f32; 16] = std::array::from_fn(|i| pairs[i][1]);
         let expected = one_nan(Everything { a: &a, b: &b }.run::<f32>());
         for set in InstructionSet::available() {
-            let found = one_nan(set.run_block(Everything { a: &a, b: &b }));
-            for (row, (found, expected)) in found.iter().zip(&expected).enumerate() {
-                assert_eq!(found, expected, "{set}, trial {trial}, operation {row}: {a:?}, {b:?}");
+            let blocks = set.run_block(Everything { a: &a, b: &b });
+            let lanes = set.run(&(), &mut (), &(), WithLanes(Everything { a: &a, b: &b }));
+            for found in [blocks, lanes].map(one_nan) {
+                for (row, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                    assert_eq!(
+                        found, expected,
+                        "{set}, trial {trial}, operation {row}: {a:?}, {b:?}"
+                    );
+                }
             }
         }
     }

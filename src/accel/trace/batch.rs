@@ -94,8 +94,7 @@ fn trace_chunk<L: Lanes, A: Answer>(bvh: &Bvh, stack: &mut Stack, rays: &[Ray], 
     let mut packets = ArrayVec::<Packet<L>, MAX_PACKETS>::new();
     let mut group_of_packet = ArrayVec::<usize, MAX_PACKETS>::new();
     for (group, rays) in groups.iter().enumerate() {
-        let may_share = L::USES_PACKETS && !bvh.nodes.is_empty();
-        match may_share.then(|| Packet::new(rays)).flatten() {
+        match (!bvh.nodes.is_empty()).then(|| Packet::new(rays)).flatten() {
             Some(packet) => {
                 packets.push(packet);
                 group_of_packet.push(group);

@@ -1,8 +1,10 @@
 //! [`Frustum`]: a beam of rays, against the boxes of a node and the triangles of a leaf.
 
-use super::packet::Packet;
+use super::leaf_test::permute3;
+use super::packet::{Packet, lane3};
 use crate::accel::tree::{Bvh, Leaf, Node};
-use crate::simd::{LANES, Lanes, Mask, splat3};
+use crate::shape::ShearedRay;
+use crate::simd::{LANES, LaneMask, Lanes, Mask, splat3};
 
 /// The frustum around a beam of one to [`MAX_PACKETS`] packets: the space between four side planes and two ends.
 ///
@@ -48,7 +50,7 @@ struct Line {
 impl Line {
     #[inline(always)]
     fn at<L: Lanes>(&self, z: L) -> L {
-        L::splat(self.a).add(L::splat(self.s).mul(z))
+        L::splat(self.a) + L::splat(self.s) * z
     }
 
     /// The smallest x between two z.
@@ -89,19 +91,18 @@ impl<L: Lanes> Frustum<L> {
         min_per_leaf: f32,
     ) -> Option<Self> {
         let first = &packets[0];
-        let [x, y, z] = first.o;
-        let base = [x.lane(0), y.lane(0), z.lane(0)];
+        let base = lane3(first.sheared.o, 0);
         let splat_base = splat3(base);
         let mut farthest = L::splat(0.0);
-        let mut start = first.o[2];
+        let mut start = first.sheared.o[2];
         for packet in packets {
-            let [x, y, z] = packet.o;
+            let [x, y, z] = packet.sheared.o;
             farthest = farthest.max(x.abs().max(y.abs()).max(z.abs()));
             start = if first.backwards { start.max(z) } else { start.min(z) };
         }
         // Planes, boxes and the triangle test each take a few roundings of numbers no larger than the sum.
         let padding = 32.0 * f32::EPSILON * (bvh.largest_coordinate + farthest.reduce_max());
-        let z = first.axes[2];
+        let z = first.sheared.axes[2];
         let low = bvh.bounds.min[z] - base[2] - padding;
         let high = bvh.bounds.max[z] - base[2] + padding;
         let ends = if first.backwards {
@@ -131,7 +132,7 @@ impl<L: Lanes> Frustum<L> {
         // Rays that all end before they reach the scene enter no box.
         let is_narrow = area * min_per_leaf <= rays * bvh.mean_leaf_area || ends[0] > ends[1];
         is_narrow.then(|| Self {
-            axes: first.axes,
+            axes: first.sheared.axes,
             base: splat_base,
             padding: L::splat(padding),
             ends: [L::splat(ends[0]), L::splat(ends[1])],
@@ -166,7 +167,7 @@ impl<L: Lanes> Frustum<L> {
         let ends = self.extent(node, 2);
         let in_ends = ends[0].le(self.ends[1]) & self.ends[0].le(ends[1]);
         let met = in_ends & self.overlaps(node, 0, ends) & self.overlaps(node, 1, ends);
-        let near = if self.backwards { L::splat(-0.0).sub(ends[1]) } else { ends[0] };
+        let near = if self.backwards { -ends[1] } else { ends[0] };
         (L::flip_mask(met, self.flip), near)
     }
 
@@ -174,11 +175,11 @@ impl<L: Lanes> Frustum<L> {
     #[inline(always)]
     pub fn candidates(&self, leaf: Leaf, packet: usize) -> Mask {
         let sides = &self.of_packets[packet % MAX_PACKETS];
-        let z = leaf.vertices::<L>(self.axes[2]).sub(self.base[2]);
-        let corners = leaf.corners::<L::Indices>();
-        leaf.lanes()
-            & self.between_sides(leaf, 0, z, sides, corners)
-            & self.between_sides(leaf, 1, z, sides, corners)
+        let z = leaf.vertices::<L>(self.axes[2]) - self.base[2];
+        let corners = leaf.corners();
+        let x_between = self.between_sides(leaf, 0, z, sides, corners);
+        let y_between = self.between_sides(leaf, 1, z, sides, corners);
+        leaf.lanes() & (x_between & y_between).bits()
     }
 
     /// The lanes of triangles that are not beyond a side plane in x (`i` = 0) or y.
@@ -190,12 +191,12 @@ impl<L: Lanes> Frustum<L> {
         z: L,
         sides: &Sides,
         corners: [L::Indices; 3],
-    ) -> Mask {
-        let x = leaf.vertices::<L>(self.axes[i]).sub(self.base[i]);
+    ) -> L::Mask {
+        let x = leaf.vertices::<L>(self.axes[i]) - self.base[i];
         // How far inside either plane each vertex is, and the largest of each triangle.
-        let above = max_of_corners(x.sub(sides.low[i].at(z)), corners);
-        let below = max_of_corners(sides.high[i].at(z).sub(x), corners);
-        let limit = L::splat(0.0).sub(self.padding);
+        let above = max_of_corners(x - sides.low[i].at(z), corners);
+        let below = max_of_corners(sides.high[i].at(z) - x, corners);
+        let limit = -self.padding;
         limit.le(above) & limit.le(below)
     }
 
@@ -205,12 +206,12 @@ impl<L: Lanes> Frustum<L> {
         let axis = self.axes[i];
         let low = L::load(&node.planes[axis % 3]).flip(self.flip);
         let high = L::load(&node.planes[axis % 3 + 3]).flip(self.flip);
-        [low.sub(self.base[i]).sub(self.padding), high.sub(self.base[i]).add(self.padding)]
+        [low - self.base[i] - self.padding, high - self.base[i] + self.padding]
     }
 
     /// The lanes of children that are not beyond a side plane in x (`i` = 0) or y.
     #[inline(always)]
-    fn overlaps(&self, node: &Node, i: usize, ends: [L; 2]) -> Mask {
+    fn overlaps(&self, node: &Node, i: usize, ends: [L; 2]) -> L::Mask {
         let [low, high] = self.extent(node, i);
         self.sides.low[i].min(ends).le(high) & low.le(self.sides.high[i].max(ends))
     }
@@ -219,11 +220,9 @@ impl<L: Lanes> Frustum<L> {
 /// x (`i` = 0) or y of all rays at two z, all relative to `base`.
 #[inline(always)]
 fn at_ends<L: Lanes>(packet: &Packet<L>, i: usize, base: [L; 3], ends: [f32; 2]) -> (L, L) {
-    let (o, z) = (packet.o[i].sub(base[i]), packet.o[2].sub(base[2]));
-    let slope = L::splat(0.0).sub(packet.shear[i]);
-    let near = o.add(slope.mul(L::splat(ends[0]).sub(z)));
-    let far = o.add(slope.mul(L::splat(ends[1]).sub(z)));
-    (near, far)
+    let ShearedRay { o, shear, .. } = &packet.sheared;
+    let (o, z) = (o[i] - base[i], o[2] - base[2]);
+    (o - shear[i] * (L::splat(ends[0]) - z), o - shear[i] * (L::splat(ends[1]) - z))
 }
 
 /// Where the last of all rays ends along z, relative to `base`: the largest, or the smallest if they run backwards.
@@ -238,6 +237,7 @@ fn end<L: Lanes, const N: usize>(packets: &[Packet<L>; N], base: L) -> f32 {
 
 /// The largest value of each triangle's vertices.
 #[inline(always)]
-fn max_of_corners<L: Lanes>(vertices: L, [a, b, c]: [L::Indices; 3]) -> L {
-    vertices.permute(a).max(vertices.permute(b).max(vertices.permute(c)))
+fn max_of_corners<L: Lanes>(vertices: L, corners: [L::Indices; 3]) -> L {
+    let [a, b, c] = permute3(vertices, corners);
+    a.max(b.max(c))
 }

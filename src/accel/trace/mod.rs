@@ -2,9 +2,9 @@
 //!
 //! [`single_ray`] walks the tree with one ray, [`beam`] with up to 64 rays that share a frustum, and [`batch`] chooses
 //! between both for a slice of rays. A node's boxes are tested by [`slabs`] (one ray) or [`frustum`] (a beam), a leaf's
-//! triangles by [`leaf_test`] (one ray, all triangles) or [`packet`] (sixteen rays, one triangle). Children still to be
-//! visited wait on a [`stack`]. All of it is generic over the vectors of `simd/`, and reads the data of `tree/`. It
-//! never knows `build/`.
+//! triangles by [`leaf_test`] (one ray, all triangles) or [`packet`] (sixteen rays, one triangle), with the formulas of
+//! `shape/watertight.rs`. Children still to be visited wait on a [`stack`]. All of it is generic over the vectors of
+//! `simd/`, and reads the data of `tree/`. It never knows `build/`.
 
 mod batch;
 mod beam;
@@ -15,7 +15,6 @@ mod packet;
 mod single_ray;
 mod slabs;
 mod stack;
-mod watertight;
 
 pub use batch::Batch;
 pub use hit::Hit;

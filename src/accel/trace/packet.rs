@@ -4,23 +4,20 @@ use glam::Vec3A;
 
 use super::hit::Hit;
 use super::leaf_test::{LeafTest, intersect_triangle};
-use super::watertight::{depth_error_bound, edge_function, sheared};
 use crate::accel::tree::{Bvh, Leaf, Node};
 use crate::geometry::Ray;
-use crate::shape::{ShearedRay, TriangleHit};
-use crate::simd::{LANES, Lanes, Mask, Vector, splat3};
+use crate::shape::{Crossing, Edges, ShearedRay, TriangleHit, longest_axis};
+use crate::simd::{LANES, LaneMask, Lanes, Mask, Vector, splat3};
 
-/// Sixteen rays whose directions have the same largest axis, with the same sign, and the nearest hit of each so far. Each
-/// lane computes what [`ShearedRay`] computes, to the bit.
+/// Sixteen rays whose directions have the same largest axis, with the same sign, and the nearest hit of each so far.
 pub struct Packet<'a, L> {
     rays: &'a [Ray; LANES],
-    /// The axes that become x, y and z, the same for all rays.
-    pub axes: [usize; 3],
+    /// All of them, along the same axes.
+    pub sheared: ShearedRay<L>,
     /// Whether the directions are negative along z.
     pub backwards: bool,
-    pub o: [L; 3],
-    pub d: [L; 3],
-    pub shear: [L; 3],
+    /// z of the directions.
+    d_z: L,
     t_min: L,
     /// Where each ray ends, or hits the nearest triangle so far.
     pub t_max: L,
@@ -41,162 +38,139 @@ impl<'a, L: Lanes> Packet<'a, L> {
     /// The packet; none if the rays do not have the same axis and sign, or are not finite.
     #[inline(always)]
     pub fn new(rays: &'a [Ray; LANES]) -> Option<Self> {
-        let [ox, oy, oz, t_min, dx, dy, dz, t_max] = L::transpose(bytemuck::cast_ref(rays));
+        let [ox, oy, oz, t_min, dx, dy, dz, t_max] = L::gather(|i| bytemuck::cast_ref(&rays[i]));
         let axes = ShearedRay::axes_of(&rays[0]);
         let (o, d) = ([ox, oy, oz], [dx, dy, dz]);
-        // The rule of `ShearedRay::axes_of` for all rays at once.
-        let size = [dx.abs(), dy.abs(), dz.abs()];
+        let [x_longest, y_before_z] = longest_axis(d);
         let longest = match axes[2] {
-            0 => size[1].lt(size[0]) & size[2].lt(size[0]),
-            1 => !(size[1].lt(size[0]) & size[2].lt(size[0])) & size[2].lt(size[1]),
-            _ => !(size[1].lt(size[0]) & size[2].lt(size[0])) & !size[2].lt(size[1]),
+            0 => x_longest,
+            1 => !x_longest & y_before_z,
+            _ => !x_longest & !y_before_z,
         };
         let [x, y, z] = axes;
         let (o, d) = ([o[x], o[y], o[z]], [d[x], d[y], d[z]]);
         let zero = L::splat(0.0);
-        let forwards = zero.lt(d[2]);
+        let forwards = d[2].gt(zero);
         // Then no sum, product or quotient that a frustum is made from is NaN.
-        let distance = o[0].abs().add(o[1].abs()).add(o[2].abs());
+        let distance = o[0].abs() + o[1].abs() + o[2].abs();
         let finite = distance.lt(L::splat(MAX_DISTANCE))
-            & zero.lt(d[2].abs())
+            & d[2].abs().gt(zero)
             & d[2].abs().lt(L::splat(f32::INFINITY))
             & d[0].abs().le(d[2].abs())
             & d[1].abs().le(d[2].abs())
             & t_max.eq(t_max);
-        if longest & finite != Mask::MAX || forwards != 0 && forwards != Mask::MAX {
+        if !(longest & finite).all() || forwards.any() && !forwards.all() {
             return None;
         }
-        let shear = [
-            L::splat(-0.0).sub(d[0]).div(d[2]),
-            L::splat(-0.0).sub(d[1]).div(d[2]),
-            L::splat(1.0).div(d[2]),
-        ];
-        let ids = L::splat(f32::from_bits(NONE));
-        let backwards = forwards == 0;
         Some(Self {
             rays,
-            axes,
-            backwards,
-            o,
-            d,
-            shear,
+            sheared: ShearedRay::permuted(axes, o, d),
+            backwards: !forwards.any(),
+            d_z: d[2],
             t_min,
             t_max,
             edges: [zero; 3],
             determinant: L::splat(1.0),
-            ids,
+            ids: L::splat(f32::from_bits(NONE)),
         })
     }
 
     /// The rays that may enter the box of a slot before their nearest hit.
     #[inline(always)]
     pub fn enters(&self, node: &Node, slot: usize, padding: L) -> Mask {
-        let [x, y, z] = self.axes;
-        let low = |axis: usize| L::splat(node.planes[axis % 3][slot % LANES]);
-        let high = |axis: usize| L::splat(node.planes[axis % 3 + 3][slot % LANES]);
-        let (low_z, high_z) =
-            (low(z).sub(self.o[2]).sub(padding), high(z).sub(self.o[2]).add(padding));
-        let near_t = (if self.backwards { high_z } else { low_z }).mul(self.shear[2]);
+        let shear = &self.sheared.shear;
+        let [low_x, high_x] = self.extent(node, slot, 0, padding);
+        let [low_y, high_y] = self.extent(node, slot, 1, padding);
+        let [low_z, high_z] = self.extent(node, slot, 2, padding);
+        let near_t = (if self.backwards { high_z } else { low_z }) * shear[2];
         // How far x and y of each ray move until it passes both ends of the box in z.
-        let (low_x, high_x) = (self.shear[0].mul(low_z), self.shear[0].mul(high_z));
-        let (low_y, high_y) = (self.shear[1].mul(low_z), self.shear[1].mul(high_z));
-        let (from_x, to_x) =
-            (low(x).sub(self.o[0]).sub(padding), high(x).sub(self.o[0]).add(padding));
-        let (from_y, to_y) =
-            (low(y).sub(self.o[1]).sub(padding), high(y).sub(self.o[1]).add(padding));
+        let (x0, x1) = (shear[0] * low_z, shear[0] * high_z);
+        let (y0, y1) = (shear[1] * low_z, shear[1] * high_z);
         let zero = L::splat(0.0);
-        zero.le(to_x.add(low_x.max(high_x)))
-            & from_x.add(low_x.min(high_x)).le(zero)
-            & zero.le(to_y.add(low_y.max(high_y)))
-            & from_y.add(low_y.min(high_y)).le(zero)
-            & !self.t_max.lt(near_t)
+        let met = (high_x + x0.max(x1)).ge(zero)
+            & (low_x + x0.min(x1)).le(zero)
+            & (high_y + y0.max(y1)).ge(zero)
+            & (low_y + y0.min(y1)).le(zero)
+            & !self.t_max.lt(near_t);
+        met.bits()
+    }
+
+    /// The padded extent of a box along an axis, seen from the origin of each ray.
+    #[inline(always)]
+    fn extent(&self, node: &Node, slot: usize, i: usize, padding: L) -> [L; 2] {
+        let (axis, o) = (self.sheared.axes[i] % 3, self.sheared.o[i]);
+        let (low, high) = (node.planes[axis][slot % LANES], node.planes[axis + 3][slot % LANES]);
+        [L::splat(low) - o - padding, L::splat(high) - o + padding]
     }
 
     /// The lanes of the triangles of a leaf that one ray may hit before its nearest hit.
     #[inline(always)]
     pub fn candidates_of(&self, leaf: Leaf, ray: u32) -> Mask {
         if leaf.fits::<L::Narrow>() {
-            return self.candidates(leaf, |x| x.broadcast_narrow(ray));
+            return self.candidates::<L::Narrow>(leaf, ray);
         }
-        self.candidates(leaf, |x| x.broadcast(ray))
+        self.candidates::<L>(leaf, ray)
     }
 
-    /// The same for the ray whose numbers `broadcast` puts into vectors.
     #[inline(always)]
-    fn candidates<V: Vector>(&self, leaf: Leaf, broadcast: impl Fn(L) -> V) -> Mask {
-        let three = |[x, y, z]: [L; 3]| [broadcast(x), broadcast(y), broadcast(z)];
-        let (o, shear, t_min) = (three(self.o), three(self.shear), broadcast(self.t_min));
-        let test = LeafTest { axes: self.axes, o, shear, t_min };
-        test.candidates(leaf, broadcast(self.t_max)).map_or(0, |candidates| candidates.lanes)
+    fn candidates<V: Vector>(&self, leaf: Leaf, ray: u32) -> Mask {
+        let ShearedRay { axes, o, shear } = self.sheared;
+        let sheared = ShearedRay { axes, o: lane3(o, ray), shear: lane3(shear, ray) };
+        let test = LeafTest::<V>::new(&sheared, self.t_min.lane(ray));
+        let t_max = V::splat(self.t_max.lane(ray));
+        test.candidates(leaf, t_max).map_or(0, |candidates| candidates.lanes)
     }
 
     /// Tests all rays against one triangle of a leaf; returns those for which it is the nearest hit so far.
     #[inline(always)]
     pub fn intersect(&mut self, leaf: Leaf, lane: u32) -> Mask {
-        // The corners in the space of each ray, where it starts at the origin and runs along z.
         let id = leaf.id(lane);
-        let corners = leaf.corners_of(lane);
-        let z = self.translated(leaf, corners, 2);
-        let x = sheared(self.translated(leaf, corners, 0), self.shear[0], z);
-        let y = sheared(self.translated(leaf, corners, 1), self.shear[1], z);
-        let (a, b, c) = ([x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]);
-        let (e0, e1, e2) = (
-            edge_function(x[1], y[1], x[2], y[2]),
-            edge_function(x[2], y[2], x[0], y[0]),
-            edge_function(x[0], y[0], x[1], y[1]),
-        );
-        let zero = L::splat(0.0);
-        let on_edge = e0.eq(zero) | e1.eq(zero) | e2.eq(zero);
-        let inside = (zero.le(e0.min(e1.min(e2))) | e0.max(e1.max(e2)).le(zero)) & !on_edge;
+        let vertices = leaf.corners_of(lane);
+        let corners = self.sheared.corners(|axis| leaf.coordinates(vertices, axis));
+        let [x, y, z] = corners;
+        let edges = Edges::new(x, y);
+        let on_edge = edges.any_zero();
+        let inside = edges.inside() & !on_edge;
         let mut all = 0;
-        if inside != 0 {
-            let determinant = e0.add(e1).add(e2);
-            let depth = e0.mul(a[2]).add(e1.mul(b[2])).add(e2.mul(c[2])).div(determinant);
-            let t = depth.mul(self.shear[2]);
-            let mut hit = inside & self.t_min.le(t) & t.le(self.t_max) & zero.lt(t);
-            if hit != 0 {
-                hit &= depth_error_bound([a, b, c], [e0, e1, e2], determinant).lt(depth.abs());
+        if inside.any() {
+            let crossing = Crossing::new(edges, z, &self.sheared);
+            let mut hit = inside & crossing.is_within(self.t_min, self.t_max);
+            if hit.any() {
+                hit = hit & crossing.is_in_front(corners);
                 // Of two at the same distance the one with the lower id counts.
-                hit &= t.lt(self.t_max) | self.with_larger_id(id, hit & t.eq(self.t_max));
-                self.set_hits(hit, t, [e0, e1, e2], determinant, id);
-                all = hit;
+                let tied = hit & crossing.t.eq(self.t_max);
+                hit = hit & crossing.t.lt(self.t_max) | self.with_larger_id(id, tied);
+                self.set_hits(hit, crossing.t, edges.0, crossing.determinant, id);
+                all = hit.bits();
             }
         }
-        if on_edge != 0 {
-            all |= self.intersect_scalar(leaf, lane, id, on_edge);
+        if on_edge.any() {
+            all |= self.intersect_scalar(leaf, lane, id, on_edge.bits());
         }
         all
     }
 
-    /// One coordinate of each corner of a triangle, seen from the origin of each ray.
     #[inline(always)]
-    fn translated(&self, leaf: Leaf, corners: [usize; 3], i: usize) -> [L; 3] {
-        let [a, b, c] = leaf.coordinates(corners, self.axes[i]);
-        let o = self.o[i];
-        [L::splat(a).sub(o), L::splat(b).sub(o), L::splat(c).sub(o)]
-    }
-
-    #[inline(always)]
-    fn set_hits(&mut self, rays: Mask, t: L, e: [L; 3], determinant: L, id: u32) {
-        self.t_max = self.t_max.blend(rays, t);
+    fn set_hits(&mut self, rays: L::Mask, t: L, e: [L; 3], determinant: L, id: u32) {
+        self.t_max = L::select(rays, t, self.t_max);
         self.edges = [
-            self.edges[0].blend(rays, e[0]),
-            self.edges[1].blend(rays, e[1]),
-            self.edges[2].blend(rays, e[2]),
+            L::select(rays, e[0], self.edges[0]),
+            L::select(rays, e[1], self.edges[1]),
+            L::select(rays, e[2], self.edges[2]),
         ];
-        self.determinant = self.determinant.blend(rays, determinant);
-        self.ids = self.ids.blend(rays, L::splat(f32::from_bits(id)));
+        self.determinant = L::select(rays, determinant, self.determinant);
+        self.ids = L::select(rays, L::splat(f32::from_bits(id)), self.ids);
     }
 
     /// Those of some rays that have no hit yet, or one with a larger id.
     #[inline(always)]
-    fn with_larger_id(&self, id: u32, rays: Mask) -> Mask {
-        if rays == 0 {
-            return 0;
+    fn with_larger_id(&self, id: u32, rays: L::Mask) -> L::Mask {
+        if !rays.any() {
+            return rays;
         }
         let ids = self.ids.to_array();
         let is_larger = |i: usize| Mask::from(id < ids[i].to_bits()) << i;
-        rays & (0..LANES).fold(0, |mask, i| mask | is_larger(i))
+        rays & L::Mask::from_bits((0..LANES).fold(0, |mask, i| mask | is_larger(i)))
     }
 
     /// Tests rays with an edge function of zero one by one, which takes f64.
@@ -216,7 +190,7 @@ impl<'a, L: Lanes> Packet<'a, L> {
     /// Whether another packet has the same axes and sign.
     #[inline(always)]
     pub fn is_aligned_with(&self, other: &Self) -> bool {
-        self.axes == other.axes && self.backwards == other.backwards
+        self.sheared.axes == other.sheared.axes && self.backwards == other.backwards
     }
 
     /// The axes along which the first ray's direction is negative, x lowest.
@@ -228,7 +202,7 @@ impl<'a, L: Lanes> Packet<'a, L> {
     /// Where each ray ends along z, relative to `base`.
     #[inline(always)]
     pub fn end(&self, base: L) -> L {
-        self.o[2].sub(base).add(self.t_max.mul(self.d[2]))
+        self.sheared.o[2] - base + self.t_max * self.d_z
     }
 
     /// One ray, up to its nearest hit.
@@ -240,10 +214,11 @@ impl<'a, L: Lanes> Packet<'a, L> {
     /// Records a hit of one ray, if it is nearer than its nearest so far; returns whether it is.
     #[inline(always)]
     pub fn set_hit(&mut self, i: u32, t: f32, b: [f32; 3], id: u32) -> bool {
-        let is_nearer = t < self.t_max.lane(i) || self.with_larger_id(id, 1 << i) != 0;
+        let ray = L::Mask::from_bits(1 << i);
+        let is_nearer = t < self.t_max.lane(i) || self.with_larger_id(id, ray).any();
         if is_nearer {
             // Barycentrics are edge functions that are divided already.
-            self.set_hits(1 << i, L::splat(t), splat3(b), L::splat(1.0), id);
+            self.set_hits(ray, L::splat(t), splat3(b), L::splat(1.0), id);
         }
         is_nearer
     }
@@ -251,7 +226,7 @@ impl<'a, L: Lanes> Packet<'a, L> {
     /// Ends rays, so that they hit nothing more.
     #[inline(always)]
     pub fn terminate(&mut self, rays: Mask) {
-        self.t_max = self.t_max.blend(rays, L::splat(f32::NEG_INFINITY));
+        self.t_max = L::select(L::Mask::from_bits(rays), L::splat(f32::NEG_INFINITY), self.t_max);
     }
 
     /// The rays that have hit something.
@@ -265,8 +240,8 @@ impl<'a, L: Lanes> Packet<'a, L> {
     #[inline(always)]
     pub fn hits(&self, bvh: &Bvh, hits: &mut [Hit; LANES]) {
         let [e0, e1, e2] = self.edges;
-        let (e0, e1) = (e0.div(self.determinant), e1.div(self.determinant));
-        let b = [e0.to_array(), e1.to_array(), e2.div(self.determinant).to_array()];
+        let sum = self.determinant;
+        let b = [(e0 / sum).to_array(), (e1 / sum).to_array(), (e2 / sum).to_array()];
         let (t, ids) = (self.t_max.to_array(), self.ids.to_array());
         let id = |i: usize| ids[i].to_bits();
         for (i, hit) in hits.iter_mut().enumerate() {
@@ -280,6 +255,12 @@ impl<'a, L: Lanes> Packet<'a, L> {
             }
         }
     }
+}
+
+/// The numbers in one lane of three vectors.
+#[inline(always)]
+pub fn lane3<L: Lanes>([x, y, z]: [L; 3], lane: u32) -> [f32; 3] {
+    [x.lane(lane), y.lane(lane), z.lane(lane)]
 }
 
 /// The scalar test, out of line so that it does not spill the vectors of the caller.

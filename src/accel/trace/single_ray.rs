@@ -120,7 +120,7 @@ fn closest<L: Lanes, const EXACT: bool>(
         if lanes != 0 {
             // The nearest child is in the highest lane. The others go to the stack.
             let above = lanes.leading_zeros();
-            let others = lanes ^ 1 << (LANES as u32 - 1) >> above;
+            let others = lanes ^ 1 << (Mask::BITS - 1) >> above;
             child = node.children[(above ^ slabs.flip_near_first) as usize % LANES];
             stack_len =
                 stack.push_children(stack_len, others, &node.children, distances, slabs.flip);

@@ -5,7 +5,7 @@ use glam::Vec3A;
 use crate::accel::tree::Node;
 use crate::geometry::Ray;
 use crate::geometry::float::gamma;
-use crate::simd::{LANES, Lanes, Mask, splat3};
+use crate::simd::{LANES, LaneMask, Lanes, Mask, splat3};
 
 /// A ray prepared for boxes.
 ///
@@ -75,25 +75,28 @@ impl<L: Lanes> Slabs<L> {
     /// the first operand of `max` and `min`, which then return the second: the interval stays as it is.
     #[inline(always)]
     fn interval(&self, node: &Node) -> (L, L) {
-        let enter = |axis: usize| {
-            let plane = L::load(&node.planes[self.near[axis] % 6]);
-            plane.sub(self.origin_near[axis]).mul(self.inverse[axis])
-        };
-        let leave = |axis: usize| {
-            let plane = L::load(&node.planes[self.far[axis] % 6]);
-            plane.sub(self.origin_far[axis]).mul(self.inverse[axis])
-        };
-        (
-            enter(0).max(enter(1).max(enter(2).max(self.t_min))),
-            leave(0).min(leave(1).min(leave(2).min(self.t_max))),
-        )
+        let [x, y, z] = self.distances(node, self.near, self.origin_near);
+        let enter = x.max(y.max(z.max(self.t_min)));
+        let [x, y, z] = self.distances(node, self.far, self.origin_far);
+        (enter, x.min(y.min(z.min(self.t_max))))
+    }
+
+    /// Where the ray meets one plane of each axis.
+    #[inline(always)]
+    fn distances(&self, node: &Node, planes: [usize; 3], o: [L; 3]) -> [L; 3] {
+        let [x, y, z] = planes;
+        [
+            (L::load(&node.planes[x % 6]) - o[0]) * self.inverse[0],
+            (L::load(&node.planes[y % 6]) - o[1]) * self.inverse[1],
+            (L::load(&node.planes[z % 6]) - o[2]) * self.inverse[2],
+        ]
     }
 
     /// The slots whose boxes the ray meets.
     #[inline(always)]
     pub fn slots_met(&self, node: &Node) -> Mask {
         let (enter, leave) = self.interval(node);
-        enter.le(leave)
+        enter.le(leave).bits()
     }
 
     /// The lanes whose boxes the ray meets, flipped by `flip`, so that far children come first; and where it enters each,

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use crate::accel::tree::MAX_DEPTH;
-use crate::simd::{LANES, Lanes, Mask};
+use crate::simd::{Bits, LANES, Lanes, Mask};
 
 /// Worst case: each level leaves all children but one on the stack, and the last push writes a whole vector.
 const CAPACITY: usize = (LANES - 1) * MAX_DEPTH + LANES;
@@ -11,14 +11,15 @@ const CAPACITY: usize = (LANES - 1) * MAX_DEPTH + LANES;
 /// Ids of children, and the distance at which the ray enters each. Single rays store encoded children and t; beams
 /// store indices of slots and the distance along the frustum's axis. Traversal itself counts the entries.
 pub struct Stack {
-    ids: [u32; CAPACITY],
+    /// As the bits of an f32.
+    ids: [f32; CAPACITY],
     distances: [f32; CAPACITY],
 }
 
 thread_local! {
     /// Not cleared between rays: traversal reads only what it has pushed.
     static OF_THREAD: RefCell<Stack> =
-        const { RefCell::new(Stack { ids: [0; CAPACITY], distances: [0.0; CAPACITY] }) };
+        const { RefCell::new(Stack { ids: [0.0; CAPACITY], distances: [0.0; CAPACITY] }) };
 }
 
 impl Stack {
@@ -34,14 +35,14 @@ impl Stack {
         while *len > bottom {
             *len -= 1;
             if self.distances[*len] <= end {
-                return Some(self.ids[*len]);
+                return Some(self.ids[*len].to_bits());
             }
         }
         None
     }
 
-    /// Pushes the children in the lanes of `mask`, lowest first, with the distances in those lanes; see
-    /// [`Lanes::compress_children`]. Returns the new length.
+    /// Pushes the children in the lanes of `mask`, lowest first, with the distances in those lanes. Mask and distances are
+    /// [flipped](Lanes::flip), the children are not. Returns the new length.
     #[inline(always)]
     pub fn push_children<L: Lanes>(
         &mut self,
@@ -51,12 +52,13 @@ impl Stack {
         distances: L,
         flip: u32,
     ) -> usize {
-        if L::SKIPS_EMPTY && mask == 0 {
-            return len;
-        }
-        let (ids, to_distances) = self.room(len);
-        distances.compress_children(mask, children, flip, ids, to_distances);
-        len + mask.count_ones() as usize
+        self.push(
+            len,
+            mask,
+            L::load(bytemuck::cast_ref::<_, [f32; LANES]>(children)),
+            distances,
+            flip,
+        )
     }
 
     /// As [`Stack::push_children`], with `first + slot` in place of the child of a slot.
@@ -69,19 +71,22 @@ impl Stack {
         distances: L,
         flip: u32,
     ) -> usize {
+        let slots: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+        let slots = L::load(bytemuck::cast_ref::<_, [f32; LANES]>(&slots));
+        let slots = L::from_bits(slots.to_bits() + L::Bits::splat(first as i32));
+        self.push(len, mask, slots, distances, flip)
+    }
+
+    #[inline(always)]
+    fn push<L: Lanes>(&mut self, len: usize, mask: Mask, ids: L, distances: L, flip: u32) -> usize {
         if L::SKIPS_EMPTY && mask == 0 {
             return len;
         }
-        let (ids, to_distances) = self.room(len);
-        distances.compress_slots(mask, first, flip, ids, to_distances);
-        len + mask.count_ones() as usize
-    }
-
-    /// Where the next entries go: room for all lanes, of which the next push overwrites those that are unused.
-    #[inline(always)]
-    fn room(&mut self, len: usize) -> (&mut [u32; LANES], &mut [f32; LANES]) {
+        // Room for all lanes, of which the next push overwrites those that are unused.
         let range = len..len + LANES;
-        let ids = (&mut self.ids[range.clone()]).try_into().expect("LANES entries");
-        (ids, (&mut self.distances[range]).try_into().expect("LANES entries"))
+        let to_ids = (&mut self.ids[range.clone()]).try_into().expect("LANES entries");
+        let to_distances = (&mut self.distances[range]).try_into().expect("LANES entries");
+        L::compress([ids.flip(flip), distances], mask, flip, [to_ids, to_distances]);
+        len + mask.count_ones() as usize
     }
 }

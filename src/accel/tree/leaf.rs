@@ -1,5 +1,7 @@
 //! [`Leaf`]: the triangles of one leaf, as traversal reads them.
 
+use std::slice::from_raw_parts;
+
 use crate::simd::{LANES, LaneIndices, Mask, Vector};
 
 /// Words of a leaf besides its vertices and the ids of its triangles.
@@ -26,7 +28,9 @@ impl<'a> Leaf<'a> {
     pub fn vertices<V: Vector>(self, axis: usize) -> V {
         // SAFETY: at least HEADER + LANES words come after the first `2 * vertices`, since `new` checked the length, and
         // a vector has at most LANES. Slicing in place of the pointer checks each of three loads per leaf again.
-        unsafe { V::load_unaligned(self.words.as_ptr().add(axis % 3 * self.vertices)) }
+        V::load(unsafe {
+            from_raw_parts(self.words.as_ptr().add(axis % 3 * self.vertices), V::LANES)
+        })
     }
 
     /// Which vertices the first, second and third corner of all triangles are.
@@ -52,7 +56,7 @@ impl<'a> Leaf<'a> {
     /// The lanes that have triangles.
     #[inline(always)]
     pub fn lanes(self) -> Mask {
-        Mask::MAX >> ((LANES - self.triangles()) % LANES)
+        0xffff >> ((LANES - self.triangles()) % LANES)
     }
 
     /// The id of the triangle in a lane.
