@@ -2,9 +2,9 @@
 
 use std::arch::x86_64::*;
 
-use super::f32x8::F32x8;
+use super::f32x8::{F32x8, Indices8};
 use super::float::Float;
-use super::lanes::{Kernel, LANES, LaneIndices, Lanes, Mask, Vector};
+use super::lanes::{Kernel, LANES, Lanes, Mask, Vector};
 use super::twice::Twice;
 
 /// Sixteen f32 in two registers. Only [`super::InstructionSet::run`] names this type, if [`Avx2::is_available`]: each
@@ -117,31 +117,6 @@ static LANES_OF: [[u8; 8]; 256] = {
 fn lanes_of(mask: u8) -> __m256i {
     // SAFETY: as above; each entry has eight bytes.
     unsafe { _mm256_cvtepu8_epi32(_mm_loadl_epi64(LANES_OF[usize::from(mask)].as_ptr().cast())) }
-}
-
-/// [`LaneIndices`] of eight lanes: in the lowest four bits of each, the bits above unspecified.
-#[derive(Clone, Copy)]
-pub struct Indices8(pub(super) __m256i);
-
-impl LaneIndices for Indices8 {
-    #[inline(always)]
-    fn unpack(words: [u32; 2]) -> Self {
-        Twice::unpack(words).0
-    }
-}
-
-impl LaneIndices for Twice<Indices8> {
-    #[inline(always)]
-    fn unpack([even, odd]: [u32; 2]) -> Self {
-        let words = u64::from(even) | u64::from(odd) << 32;
-        // SAFETY: as above.
-        unsafe {
-            let words = _mm256_set1_epi64x(words as i64);
-            let low = _mm256_set_epi32(12, 12, 8, 8, 4, 4, 0, 0);
-            let high = _mm256_set_epi32(28, 28, 24, 24, 20, 20, 16, 16);
-            Self(Indices8(_mm256_srlv_epi32(words, low)), Indices8(_mm256_srlv_epi32(words, high)))
-        }
-    }
 }
 
 /// Picks eight lanes of sixteen by the lowest four bits of each index.

@@ -5,10 +5,10 @@ use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 use glam::Vec2;
 
-use super::avx2::Indices8;
 use super::float::{Bits, Block, Float, LaneMask};
-use super::lanes::Vector;
+use super::lanes::{LaneIndices, Vector};
 use super::transpose::{pair, transpose4, transpose8};
+use super::twice::Twice;
 
 /// Eight f32 in one register. Exists only while code runs under `Avx2::call`: each `unsafe` below executes an
 /// instruction that such a processor has.
@@ -275,6 +275,31 @@ impl Block for F32x8 {
                 _mm_storeu_ps(to[i].as_mut_ptr(), _mm256_castps256_ps128(rows[i]));
                 _mm_storeu_ps(to[i + 4].as_mut_ptr(), _mm256_extractf128_ps::<1>(rows[i]));
             }
+        }
+    }
+}
+
+/// [`LaneIndices`] of eight lanes: in the lowest four bits of each, the bits above unspecified.
+#[derive(Clone, Copy)]
+pub struct Indices8(pub(super) __m256i);
+
+impl LaneIndices for Indices8 {
+    #[inline(always)]
+    fn unpack(words: [u32; 2]) -> Self {
+        Twice::unpack(words).0
+    }
+}
+
+impl LaneIndices for Twice<Indices8> {
+    #[inline(always)]
+    fn unpack([even, odd]: [u32; 2]) -> Self {
+        let words = u64::from(even) | u64::from(odd) << 32;
+        // SAFETY: as above.
+        unsafe {
+            let words = _mm256_set1_epi64x(words as i64);
+            let low = _mm256_set_epi32(12, 12, 8, 8, 4, 4, 0, 0);
+            let high = _mm256_set_epi32(28, 28, 24, 24, 20, 20, 16, 16);
+            Self(Indices8(_mm256_srlv_epi32(words, low)), Indices8(_mm256_srlv_epi32(words, high)))
         }
     }
 }

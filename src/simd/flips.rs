@@ -1,7 +1,5 @@
 //! [`flipped`]: permutes masks by a table, where permuting vectors is not cheap.
 
-use super::lanes::Mask;
-
 /// `FLIPS[flip][mask]` has bit `i` of the mask as bit `i ^ flip`.
 static FLIPS: [[u8; 256]; 8] = {
     let mut flips = [[0; 256]; 8];
@@ -16,7 +14,7 @@ static FLIPS: [[u8; 256]; 8] = {
 
 /// The mask of sixteen lanes with bit `i` as bit `i ^ flip`.
 #[inline(always)]
-pub fn flipped(mask: Mask, flip: u32) -> Mask {
+pub fn flipped(mask: u32, flip: u32) -> u32 {
     let flips = &FLIPS[flip as usize % 8];
     let mask = (mask as u16).to_le_bytes().map(|bits| flips[usize::from(bits)]);
     u16::from_le_bytes(mask).rotate_left(flip & 8).into()
