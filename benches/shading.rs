@@ -6,11 +6,15 @@
 //! - `shading/sampler/*`: one point of each sampler, by a call of its own and together with the pixel's others.
 //! - `shading/hit/*`: the chapter's estimator at a hit, through the traits and as
 //!   arithmetic written by hand.
+//! - `shading/render/*`: a whole picture of the dragon, a sample as the element, with the crate's kinds, and with
+//!   one of another crate in place of one of them.
 //!
 //! All run over one fixed pool of hits.
 
 use std::f32::consts::{FRAC_1_PI, PI};
 use std::hint::black_box;
+use std::num::NonZeroUsize;
+use std::path::Path;
 use std::sync::Arc;
 
 use bumpalo::Bump;
@@ -20,14 +24,21 @@ use lobe::accel::Hit;
 use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, LambertianReflection, OrenNayar};
 use lobe::geometry::{Frame, Ray};
 use lobe::glam::{UVec2, Vec2, Vec3};
+use lobe::integrator::PathIntegrator;
 use lobe::interaction::SurfaceInteraction;
+use lobe::light::{BoundingSphere, Light, LightSample};
 use lobe::material::Material;
+use lobe::render::SamplerSettings;
 use lobe::sampling::{
     BlueNoiseSampler, IndependentSampler, SampleId, Sampler, SobolSampler, StratifiedSampler,
     cosine_hemisphere, uniform_hemisphere, uniform_triangle,
 };
+use lobe::shape::read_obj;
 use lobe::texture::{ConstantTexture, Texture, TextureHandle};
-use lobe::{MatteMaterial, PointLight, Scene, Spectrum, TriangleMesh};
+use lobe::{
+    FilmSettings, MatteMaterial, PerspectiveSettings, PointLight, RenderOptions, RenderSettings,
+    Scene, Spectrum, TriangleMesh, View, render,
+};
 use smallbox::SmallBox;
 use smallbox::space::S4;
 
@@ -252,5 +263,69 @@ fn hits(criterion: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, lobes, storage, textures, samplers, hits);
+/// A matte material as another crate writes it: it answers for single hits.
+struct ForeignMaterial(Spectrum);
+
+impl Material for ForeignMaterial {
+    fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, _: &'a Arena) -> Bsdf<'a> {
+        let mut bsdf = Bsdf::isotropic(si);
+        bsdf.add(LambertianReflection::new(self.0));
+        bsdf
+    }
+}
+
+/// A point light as another crate writes it.
+struct ForeignLight(PointLight);
+
+impl Light for ForeignLight {
+    fn is_delta(&self) -> bool {
+        true
+    }
+    fn sample_li(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
+        self.0.sample_li(p, u)
+    }
+    fn power(&self, scene: &BoundingSphere) -> Option<Spectrum> {
+        self.0.power(scene)
+    }
+}
+
+fn renders(criterion: &mut Criterion) {
+    const SIDE: u32 = 96;
+    let dragon = read_obj(Path::new("assets/dragon.obj")).expect("a mesh of the project").mesh;
+    let floor =
+        TriangleMesh::parallelogram(Vec3::new(-6.0, 0.0, 6.0), Vec3::X * 12.0, Vec3::Z * -12.0);
+    let lamp = PointLight::new(LIGHT, Spectrum::splat(900.0));
+    let closure = || MatteMaterial::new(|_: &SurfaceInteraction| RED);
+    let mut group = criterion.benchmark_group("shading/render");
+    let camera = PerspectiveSettings {
+        eye: Vec3::new(-3.0, 2.5, -3.0),
+        look_at: Vec3::new(0.0, 0.5, 0.0),
+        ..PerspectiveSettings::default()
+    };
+    let view = View::perspective(&camera, FilmSettings::new(SIDE, SIDE)).expect("a view");
+    let sampler = SamplerSettings { spp: 64, ..SamplerSettings::default() };
+    let settings = RenderSettings::new(sampler, PathIntegrator::new(5));
+    let options =
+        RenderOptions { threads: NonZeroUsize::new(1), layers: false, ..RenderOptions::default() };
+    group.throughput(Throughput::Elements(u64::from(SIDE * SIDE) * 64)).sample_size(10);
+    let mut render_of = |name: &str, material: Arc<dyn Material>, light: Arc<dyn Light>| {
+        let scene = Scene::builder()
+            .material("red", material)
+            .shape("dragon", dragon.clone(), "red")
+            .shape("floor", floor.clone(), "red")
+            .light(light)
+            .build()
+            .expect("the scene is sound");
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| render(&scene, &view, &settings, &options).expect("enough memory"));
+        });
+    };
+    let matte = || Arc::new(MatteMaterial::new(RED));
+    render_of("the crate's kinds", matte(), Arc::new(lamp));
+    render_of("foreign material", Arc::new(ForeignMaterial(RED)), Arc::new(lamp));
+    render_of("closure as texture", Arc::new(closure()), Arc::new(lamp));
+    render_of("foreign light", matte(), Arc::new(ForeignLight(lamp)));
+}
+
+criterion_group!(benches, lobes, storage, textures, samplers, hits, renders);
 criterion_main!(benches);
