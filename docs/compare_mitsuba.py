@@ -158,8 +158,9 @@ def sampled(sampler, spp, *more):
 def agree():
     print("\n| scene | lobe | Mitsuba | pixels and bands that pass | largest z | mean R, G, B: difference in standard errors | of itself |"
           "\n|---|---|---|---|---|---|---|")
-    seeds, ours = 32, a.agree_spp
-    spp = ours // seeds
+    seeds = 32
+    spp = -(-a.agree_spp // seeds)
+    ours = seeds * spp
     for scene, shading in CASES:
         m = mitsuba_scene(scene, shading)
         theirs = np.stack([by_mitsuba(m, "independent", spp, s)[0] for s in range(seeds)]).astype(np.float64)

@@ -9,8 +9,8 @@ mod build;
 mod trace;
 mod tree;
 
+pub use crate::interaction::Hit;
 pub use crate::simd::{InstructionSet, InstructionSetError};
-pub use trace::Hit;
 pub use tree::Aabb;
 
 use crate::geometry::Ray;

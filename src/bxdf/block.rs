@@ -3,13 +3,16 @@
 use std::marker::PhantomData;
 
 use arrayvec::ArrayVec;
+use bytemuck::Zeroable;
 use glam::{Vec2, Vec3};
 
 use super::bsdf::sides;
 use super::lobe::{MOST_NUMBERS, Model, of_model};
 use super::{Bsdf, BxdfFlags, Lobe, WideBxdf};
-use crate::interaction::{HitBlock, SurfaceInteraction};
+use crate::geometry::{Axes, Xyz};
+use crate::interaction::{HitBlock, Hits, SurfaceInteraction};
 use crate::simd::{Block, BlockKernel, LaneMask, ROW, Row, Rows, groups, lanes_within};
+use crate::spectrum::Bands;
 
 /// The lobes at a block of hits: what a [`Bsdf`] is for one.
 ///
@@ -20,10 +23,12 @@ pub struct BsdfBlock<'a> {
     model: Option<Model>,
     numbers: [Row; MOST_NUMBERS],
     each: ArrayVec<Bsdf<'a>, ROW>,
+    len: usize,
     rejected: u32,
 }
 
 /// Directions drawn at a block of hits: see [`BxdfSample`](super::BxdfSample).
+#[derive(Zeroable)]
 pub(crate) struct BsdfSamples {
     pub f: Rows<3>,
     pub wi: Rows<3>,
@@ -32,49 +37,44 @@ pub(crate) struct BsdfSamples {
     /// Whether the event is specular: 1 or 0.
     pub is_specular: Row,
     pub eta: Row,
-    /// Whether some event may be specular, or have an index other than 1.
-    has_events: bool,
-}
-
-impl BsdfSamples {
-    /// No samples.
-    pub fn new() -> Self {
-        let (zero, zeros) = (Row::splat(0.0), Rows::splat(0.0));
-        Self {
-            f: zeros,
-            wi: zeros,
-            pdf: zero,
-            is_specular: zero,
-            eta: Row::splat(1.0),
-            has_events: false,
-        }
-    }
 }
 
 impl<'a> BsdfBlock<'a> {
     /// No lobes.
     pub(crate) fn new() -> Self {
         let numbers = [Row::splat(0.0); MOST_NUMBERS];
-        Self { model: None, numbers, each: ArrayVec::new(), rejected: 0 }
+        Self { model: None, numbers, each: ArrayVec::new(), len: 0, rejected: 0 }
     }
 
-    /// Replaces the lobes by those that `bsdf_at` returns for each hit. It may replace the shading geometry of a hit, and
-    /// may be called twice for it.
+    /// Removes the lobes.
+    pub(crate) fn clear(&mut self) {
+        self.len = 0;
+        self.model = None;
+        self.each.clear();
+    }
+
+    /// Number of hits whose lobes it has.
+    pub(crate) fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Replaces the lobes by those that `bsdf_at` returns for each hit, and the shading normals of the hits by those of their
+    /// frames. `bsdf_at` may replace the shading geometry of a hit, and may be called twice for it.
     #[inline]
     pub fn fill(
         &mut self,
         hits: &mut HitBlock,
         bsdf_at: impl Fn(&mut SurfaceInteraction) -> Bsdf<'a>,
     ) {
-        self.each.clear();
-        self.model = None;
+        self.clear();
+        self.len = hits.len();
         let mut normals = Rows::splat(0.0);
         let mut lobe_at = |i: usize| {
             let bsdf = bsdf_at(&mut hits.get(i));
             normals.set(i, bsdf.frame().n.to_array());
             bsdf
         };
-        for i in 0..hits.len() {
+        for i in 0..self.len {
             let bsdf = lobe_at(i);
             if !self.set_only_lobe(i, hits.ng(i), &bsdf) {
                 self.model = None;
@@ -84,19 +84,25 @@ impl<'a> BsdfBlock<'a> {
                 break;
             }
         }
+        if self.each.is_empty() {
+            // If all hits are black, any model will do.
+            self.model.get_or_insert(Model::LambertianReflection);
+        }
         hits.shading_n = normals;
     }
 
     /// Replaces the lobes by one for each hit, of the same model, in the shading frames of the hits.
     #[inline]
-    pub(crate) fn fill_alike<B: Into<Lobe<'a>>>(
+    pub(crate) fn fill_alike<M, const N: usize>(
         &mut self,
         hits: &HitBlock,
-        lobe_at: impl Fn(usize) -> B,
-    ) {
-        self.each.clear();
-        self.model = None;
-        for i in 0..hits.len() {
+        lobe_at: impl Fn(usize) -> M,
+    ) where
+        M: WideBxdf<N> + Into<Lobe<'a>>,
+    {
+        self.clear();
+        self.len = hits.len();
+        for i in 0..self.len {
             if let Some((model, numbers)) = lobe_at(i).into().numbers() {
                 self.model = Some(model);
                 self.set(i, numbers);
@@ -106,8 +112,12 @@ impl<'a> BsdfBlock<'a> {
 
     /// Replaces the lobes by the same one for each hit, in the shading frames of the hits.
     #[inline]
-    pub(crate) fn fill_constant(&mut self, lobe: impl Into<Lobe<'a>>) {
-        self.each.clear();
+    pub(crate) fn fill_constant<M, const N: usize>(&mut self, hits: &HitBlock, lobe: M)
+    where
+        M: WideBxdf<N> + Into<Lobe<'a>>,
+    {
+        self.clear();
+        self.len = hits.len();
         if let Some((model, numbers)) = lobe.into().numbers() {
             self.model = Some(model);
             for (row, number) in self.numbers.iter_mut().zip(numbers) {
@@ -116,17 +126,15 @@ impl<'a> BsdfBlock<'a> {
         }
     }
 
-    /// Keeps the only lobe at a hit as numbers, if that is possible. No lobe counts as one of zeros, which is black.
+    /// Keeps the only lobe at a hit as numbers, if that is possible. No lobe is one of zeros, which is black in any model.
     #[inline(always)]
     fn set_only_lobe(&mut self, i: usize, ng: Vec3, bsdf: &Bsdf<'a>) -> bool {
-        let numbers = match bsdf.only_lobe(ng) {
-            Some(Some(lobe)) => lobe.numbers(),
-            Some(None) => {
-                Some((self.model.unwrap_or(Model::LambertianReflection), [0.0; MOST_NUMBERS]))
-            }
-            None => None,
+        let Some(lobe) = bsdf.only_lobe(ng) else { return false };
+        let Some(lobe) = lobe else {
+            self.set(i, [0.0; MOST_NUMBERS]);
+            return true;
         };
-        match numbers {
+        match lobe.numbers() {
             Some((model, numbers)) if self.model.is_none_or(|known| known == model) => {
                 self.model = Some(model);
                 self.set(i, numbers);
@@ -143,8 +151,8 @@ impl<'a> BsdfBlock<'a> {
         }
     }
 
-    /// [`Bsdf::f_and_pdf`] of all lobes, for the world direction `wi` of each hit where `asked` is above 0. Densities are only
-    /// meant where `needs_pdf` is above 0 too.
+    /// [`Bsdf::f_and_pdf`] of all lobes, for the world direction `wi` of each hit where `asked` is not 0. `pdf` is valid only
+    /// where `needs_pdf` is above 0 too.
     #[inline]
     pub(crate) fn f_and_pdf(
         &mut self,
@@ -155,7 +163,7 @@ impl<'a> BsdfBlock<'a> {
         pdf: &mut Row,
     ) {
         let Some(model) = self.model else {
-            for (i, bsdf) in self.each.iter().enumerate().filter(|(i, _)| asked.get(*i) > 0.0) {
+            for (i, bsdf) in self.each.iter().enumerate().filter(|(i, _)| asked.get(*i) != 0.0) {
                 let (wo, wi, all) = (hits.wo(i), wi.get(i).into(), BxdfFlags::all());
                 let value = if needs_pdf.get(i) > 0.0 {
                     let (value, density) = bsdf.f_and_pdf(wo, wi, all);
@@ -171,7 +179,7 @@ impl<'a> BsdfBlock<'a> {
         let set = hits.instruction_set;
         let Self { numbers, rejected, .. } = self;
         of_model!(model, M => {
-            *rejected += set.run_block(Evaluate::<M, _> { hits, numbers, wi, asked, f, pdf, model: PhantomData });
+            *rejected += set.run_block(Evaluate::<M, _> { hits, numbers, wi, asked, needs_pdf, f, pdf, model: PhantomData });
         });
     }
 
@@ -185,7 +193,6 @@ impl<'a> BsdfBlock<'a> {
         samples: &mut BsdfSamples,
     ) {
         let Some(model) = self.model else {
-            samples.has_events = true;
             for (i, (bsdf, &u)) in self.each.iter().zip(u).enumerate() {
                 let uc = if bsdf.uses_uc() { uc(i) } else { f32::NAN };
                 samples.pdf.set(i, 0.0);
@@ -201,9 +208,7 @@ impl<'a> BsdfBlock<'a> {
         };
         let set = hits.instruction_set;
         let Self { numbers, rejected, .. } = self;
-        if std::mem::take(&mut samples.has_events) {
-            (samples.is_specular, samples.eta) = (Row::splat(0.0), Row::splat(1.0));
-        }
+        (samples.is_specular, samples.eta) = (Row::splat(0.0), Row::splat(1.0));
         of_model!(model, M => {
             *rejected += set.run_block(Sample::<M, _> { hits, numbers, u, samples, model: PhantomData });
         });
@@ -231,6 +236,7 @@ struct Evaluate<'a, M, const N: usize> {
     numbers: &'a [Row; MOST_NUMBERS],
     wi: &'a Rows<3>,
     asked: &'a Row,
+    needs_pdf: &'a Row,
     f: &'a mut Rows<3>,
     pdf: &'a mut Row,
     model: PhantomData<[M; N]>,
@@ -241,25 +247,22 @@ impl<M: WideBxdf<N>, const N: usize> BlockKernel for Evaluate<'_, M, N> {
 
     #[inline(always)]
     fn run<F: Block>(self) -> u32 {
-        let Self { hits, numbers, wi: all_wi, asked, f: all_f, pdf: all_pdf, .. } = self;
+        let Self { hits, numbers, wi: all_wi, asked, needs_pdf, f: all_f, pdf: all_pdf, .. } = self;
         let (len, zero) = (hits.len(), F::splat(0.0));
         let mut rejected = 0;
         for at in groups::<F>(len) {
             let of_hits = hits.load::<F>(at);
-            let (wo, wi, axes) = (of_hits.wo, all_wi.load(at).into(), of_hits.axes());
-            let (local_wo, local_wi) = (axes.to_local(wo), axes.to_local(wi));
+            let wi = all_wi.load(at).into();
+            let axes = Axes::from_normal(of_hits.shading_n);
+            let local = [axes.to_local(of_hits.wo), axes.to_local(wi)];
             let lobes = load::<F, N>(numbers, at);
-            let [reflects, _] =
-                sides([wo.dot(of_hits.n), wi.dot(of_hits.n)], [local_wo.z, local_wi.z]);
-            let exists = !local_wo.z.eq(zero) & asked.load::<F>(at).gt(zero);
-            let f = M::f(lobes, local_wo, local_wi).only(reflects & exists);
-            let pdf = F::select(exists, M::pdf(lobes, local_wo, local_wi), zero);
-            let (f_valid, pdf_valid) = (f.is_valid(), is_density(pdf));
-            all_f.store(at, f.only(f_valid).0);
-            all_pdf.store(at, F::select(pdf_valid, pdf, zero));
-            let within = lanes_within::<F>(at, len);
-            rejected += ((!f_valid).bits() & within).count_ones();
-            rejected += ((!pdf_valid).bits() & within).count_ones();
+            let exists = !local[0].z.eq(zero) & !asked.load::<F>(at).eq(zero);
+            let needed = [exists, exists & needs_pdf.load::<F>(at).gt(zero)];
+            let values = (M::f(lobes, local[0], local[1]), M::pdf(lobes, local[0], local[1]));
+            let (f, pdf, invalid) = guarded(values, &of_hits, wi, local, needed);
+            rejected += count(invalid, lanes_within::<F>(at, len));
+            all_f.store(at, f.0);
+            all_pdf.store(at, pdf);
         }
         rejected
     }
@@ -284,31 +287,44 @@ impl<M: WideBxdf<N>, const N: usize> BlockKernel for Sample<'_, M, N> {
         let mut rejected = 0;
         for at in groups::<F>(len) {
             let of_hits = hits.load::<F>(at);
-            let (wo, axes) = (of_hits.wo, of_hits.axes());
-            let local_wo = axes.to_local(wo);
+            let axes = Axes::from_normal(of_hits.shading_n);
+            let local_wo = axes.to_local(of_hits.wo);
             let lobes = load::<F, N>(numbers, at);
             let local_wi = M::sample(lobes, local_wo, F::load_pairs(&u[at..]));
-            let wi = axes.to_world(local_wi);
+            let (local, wi) = ([local_wo, local_wi], axes.to_world(local_wi));
             let pdf = M::pdf(lobes, local_wo, local_wi);
-            let [reflects, _] =
-                sides([wo.dot(of_hits.n), wi.dot(of_hits.n)], [local_wo.z, local_wi.z]);
             let exists = !local_wo.z.eq(zero) & pdf.gt(zero);
-            let f = M::f(lobes, local_wo, local_wi).only(reflects & exists);
-            let pdf = F::select(exists, pdf, zero);
-            let (f_valid, pdf_valid) = (f.is_valid(), is_density(pdf));
-            all_f.store(at, f.only(f_valid).0);
+            let values = (M::f(lobes, local_wo, local_wi), pdf);
+            let (f, pdf, invalid) = guarded(values, &of_hits, wi, local, [exists; 2]);
+            rejected += count(invalid, lanes_within::<F>(at, len));
+            all_f.store(at, f.0);
             all_wi.store(at, wi.into());
-            all_pdf.store(at, F::select(pdf_valid, pdf, zero));
-            let within = lanes_within::<F>(at, len);
-            rejected += ((!f_valid).bits() & within).count_ones();
-            rejected += ((!pdf_valid).bits() & within).count_ones();
+            all_pdf.store(at, pdf);
         }
         rejected
     }
 }
 
-/// Lanes with a finite number that is not negative.
+/// The guard of [`Bsdf`] for lobes that reflect: values and densities of pairs of directions, 0 where they are not needed, on the
+/// wrong side or invalid; and where they are invalid.
 #[inline(always)]
-fn is_density<F: Block>(pdf: F) -> F::Mask {
-    F::splat(0.0).le(pdf) & pdf.lt(F::splat(f32::INFINITY))
+fn guarded<F: Block>(
+    (f, pdf): (Bands<F>, F),
+    hits: &Hits<F>,
+    wi: Xyz<F>,
+    [local_wo, local_wi]: [Xyz<F>; 2],
+    [needs_f, needs_pdf]: [F::Mask; 2],
+) -> (Bands<F>, F, [F::Mask; 2]) {
+    let [reflects, _] = sides([hits.wo.dot(hits.n), wi.dot(hits.n)], [local_wo.z, local_wi.z]);
+    let zero = F::splat(0.0);
+    let f = f.only(reflects & needs_f);
+    let pdf = F::select(needs_pdf, pdf, zero);
+    let (f_valid, pdf_valid) = (f.is_valid(), zero.le(pdf) & pdf.lt(F::splat(f32::INFINITY)));
+    (f.only(f_valid), F::select(pdf_valid, pdf, zero), [!f_valid, !pdf_valid])
+}
+
+/// Number of lanes in two masks.
+#[inline(always)]
+fn count<M: LaneMask>([a, b]: [M; 2], within: u32) -> u32 {
+    (a.bits() & within).count_ones() + (b.bits() & within).count_ones()
 }

@@ -60,8 +60,6 @@ pub struct Bsdf<'a> {
     ng: Vec3,
     /// Each lobe with its flags, cached so that lobes of other kinds are skipped without a call.
     lobes: ArrayVec<(Lobe<'a>, BxdfFlags), MAX_LOBES>,
-    /// Whether the tangents of the frame are those of [`Frame::from_normal`].
-    is_isotropic: bool,
     rejected: Cell<u32>,
 }
 
@@ -84,8 +82,7 @@ impl<'a> Bsdf<'a> {
     /// isotropic lobes.
     #[inline]
     pub fn isotropic(si: &SurfaceInteraction) -> Self {
-        let frame = Frame::from_normal(si.shading_n());
-        Self { is_isotropic: true, ..Self::in_frame(frame, si.n()) }
+        Self::in_frame(Frame::from_normal(si.shading_n()), si.n())
     }
 
     /// A surface without lobes. The frame follows the shading normal and its x axis follows ∂p/∂u: for
@@ -97,8 +94,7 @@ impl<'a> Bsdf<'a> {
 
     #[inline]
     fn in_frame(frame: Frame, ng: Vec3) -> Self {
-        let lobes = ArrayVec::new_const();
-        Self { frame, ng, lobes, is_isotropic: false, rejected: Cell::new(0) }
+        Self { frame, ng, lobes: ArrayVec::new_const(), rejected: Cell::new(0) }
     }
 
     /// Adds a lobe: one of this crate's by value, any other by reference. A material lends a lobe that it holds
@@ -286,7 +282,9 @@ impl<'a> Bsdf<'a> {
     /// it with others at a time. `None` if there is more to know.
     #[inline(always)]
     pub(super) fn only_lobe(&self, ng: Vec3) -> Option<Option<&Lobe<'a>>> {
-        let is_simple = self.is_isotropic && self.ng == ng && self.rejected() == 0;
+        let frame = &self.frame;
+        let is_simple =
+            *frame == Frame::from_normal(frame.n) && self.ng == ng && self.rejected() == 0;
         match &self.lobes[..] {
             [] if is_simple => Some(None),
             [(lobe, _)] if is_simple => Some(Some(lobe)),
@@ -362,9 +360,13 @@ impl<'a> Bsdf<'a> {
 /// normal and with the shading normal. Neither, if the normals disagree.
 #[inline(always)]
 pub(super) fn sides<F: Float>(with_ng: [F; 2], with_ns: [F; 2]) -> [F::Mask; 2] {
-    let differ = |[a, b]: [F; 2]| a.gt(F::splat(0.0)) ^ b.gt(F::splat(0.0));
-    let (ng, ns) = (differ(with_ng), differ(with_ns));
+    let (ng, ns) = (signs_differ(with_ng), signs_differ(with_ns));
     [!(ng | ns), ng & ns]
+}
+
+#[inline(always)]
+fn signs_differ<F: Float>([a, b]: [F; 2]) -> F::Mask {
+    a.gt(F::splat(0.0)) ^ b.gt(F::splat(0.0))
 }
 
 const SIDES: BxdfFlags = BxdfFlags::REFLECTION.union(BxdfFlags::TRANSMISSION);

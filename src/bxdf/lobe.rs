@@ -81,6 +81,7 @@ pub(super) const MOST_NUMBERS: usize = 5;
 
 #[inline(always)]
 fn padded<const N: usize>(numbers: [f32; N]) -> [f32; MOST_NUMBERS] {
+    const { assert!(N <= MOST_NUMBERS) };
     let mut padded = [0.0; MOST_NUMBERS];
     padded[..N].copy_from_slice(&numbers);
     padded

@@ -6,7 +6,8 @@ use crate::sampling::cosine_hemisphere;
 use crate::simd::Float;
 use crate::spectrum::Bands;
 
-/// The formulas of a model that reflects, is no delta lobe and does not use `uc`. A lobe of it is `N` numbers.
+/// The formulas of a model that reflects, is no delta lobe and does not use `uc`. A lobe of it is `N` numbers; zeros are a black
+/// lobe.
 ///
 /// As for [`BxDF`](super::BxDF), directions are in shading coordinates, `wo.z` is not 0, and the defaults sample the
 /// cosine.

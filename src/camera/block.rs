@@ -4,7 +4,7 @@ use glam::{UVec2, Vec2};
 
 use crate::geometry::{Ray, Xyz};
 use crate::sampling::SampleId;
-use crate::simd::{Block, BlockKernel, Float, InstructionSet};
+use crate::simd::{Block, BlockKernel, Float, InstructionSet, MAX_LANES};
 
 /// A block of samples that a camera makes rays for.
 pub struct CameraSamples<'a> {
@@ -86,17 +86,14 @@ struct Rays<'a, C> {
     rays: &'a mut [Ray],
 }
 
-/// Most lanes.
-const MOST: usize = 16;
-
 impl<C: WideCamera> BlockKernel for Rays<'_, C> {
     type Output = ();
 
     #[inline(always)]
     fn run<F: Block>(self) {
         let Self { camera, samples: &CameraSamples { ids, offsets, lens, .. }, rays } = self;
-        let (mut pixels, mut records) = ([Vec2::ZERO; MOST], [[0.0; 8]; MOST]);
-        let (mut last_offsets, mut last_lens) = ([Vec2::ZERO; MOST], [Vec2::ZERO; MOST]);
+        let (mut pixels, mut records) = ([Vec2::ZERO; MAX_LANES], [[0.0; 8]; MAX_LANES]);
+        let (mut last_offsets, mut last_lens) = ([Vec2::ZERO; MAX_LANES], [Vec2::ZERO; MAX_LANES]);
         let lanes = F::LANES;
         let blocks = ids.chunks(lanes).zip(offsets.chunks(lanes)).zip(lens.chunks(lanes));
         for (((ids, mut offsets), mut lens), rays) in blocks.zip(rays.chunks_mut(lanes)) {

@@ -109,6 +109,6 @@ fn round_away<F: Float>(value: F, offset: F) -> F {
     // otherwise it subtracts one.
     let step = (bits.is_negative() ^ towards.is_negative()) | one;
     let tiny = F::from_bits(one).copysign(offset);
-    let next = F::select(value.eq(zero), tiny, F::from_bits(bits + step));
+    let next = F::select(value.eq(zero), tiny, F::from_bits(bits.wrapping_add(step)));
     F::select(offset.eq(zero), value, next)
 }

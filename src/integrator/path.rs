@@ -8,8 +8,11 @@
 use std::sync::Arc;
 
 use super::traits::{Estimator, Integrator, Read};
-use super::wave::{PathRules, Paths, Stage, Vertices, Wave, add_escaped, dimension};
-use crate::interaction::BLOCK;
+use super::wave::{
+    PathList, PathRules, Paths, PathsAt, Stage, Vertices, Wave, dimension, for_each_escaped,
+};
+use crate::geometry::Ray;
+use crate::interaction::{BLOCK, Hit};
 use crate::light::{LightChoice, LightHit, LightStrategy};
 use crate::params::{Choice, Fault, Key, Kind, Table};
 use crate::sampling::{SampleId, Sampler};
@@ -92,7 +95,7 @@ impl Estimator for PathTracer<'_> {
         if !rules.has_lights() {
             return;
         }
-        wave.paths.start(wave.rays.len(), scene.material_count());
+        wave.paths.start(wave.rays.len());
         for depth in 0..=rules.max_depth {
             // L += β Le w, for lights that the rays hit.
             self.add_emitted(wave, depth);
@@ -124,31 +127,33 @@ impl PathTracer<'_> {
     fn add_emitted(&self, wave: &mut Wave, depth: u32) {
         let Self { scene, rules } = self;
         let Wave { rays, hits, radiance, paths, .. } = wave;
-        let Paths { first, list, by_hit, .. } = paths;
-        let at_camera = depth == 0;
-        let (list, rays, hits) = match at_camera {
-            true => (&*first, &rays[..], &*hits),
-            false => (&*list, list.rays.as_slice(), &paths.hits),
-        };
-        let (states, samples) = (list.states.as_slice(), list.samples.as_slice());
-        by_hit.partition(hits);
+        let Paths { first, list, hits: list_hits, by_hit, .. } = paths;
+        let at = paths_at(depth, [first, list], rays, [hits, list_hits]);
+        by_hit.partition(at.hits);
         if !rules.infinite.is_empty() {
-            let escaped = &by_hit.escaped;
-            add_escaped(rules, scene, escaped, states, samples, rays, at_camera, radiance);
+            let escaped = |i: usize| by_hit.escaped[i] as usize;
+            for_each_escaped(rules, scene, &at, by_hit.escaped.len(), escaped, |path, found| {
+                radiance[at.samples[path] as usize] += found;
+            });
         }
         if !rules.has_area_lights {
             return;
         }
         for i in by_hit.active.iter().map(|&i| i as usize) {
-            let (path, ray, hit) = (&states[i], &rays[i], &hits[i]);
+            let (path, ray, hit) = (&at.states[i], &at.rays[i], &at.hits[i]);
             if let Some(index) = scene.light_at(hit) {
                 let (light, si) = (&scene.lights()[index], scene.interaction(ray, hit));
                 // The surface point, not the offset ray origin: `sample_li` gets the same point.
-                let at = LightHit::on_surface(if at_camera { ray.o } else { path.p }, &si);
+                let hit = LightHit::on_surface(if at.at_camera { ray.o } else { path.p }, &si);
+                let weighting = rules.weighting(index);
                 // Light sampling cannot find paths from the camera or from delta events.
-                let light_pdf = if path.pdf < f32::INFINITY { light.pdf_li(&at) } else { 1.0 };
-                let weight = rules.weighting(index).weight(path.pdf, light_pdf);
-                radiance[samples[i] as usize] += Spectrum::from(path.beta) * light.le(&at) * weight;
+                let needs_pdf = weighting.needs_pdf() && path.pdf < f32::INFINITY;
+                let light_pdf = if needs_pdf { light.pdf_li(&hit) } else { 1.0 };
+                let weight = weighting.weight(path.pdf, light_pdf);
+                if weight != 0.0 {
+                    let found = Spectrum::from(path.beta) * light.le(&hit) * weight;
+                    radiance[at.samples[i] as usize] += found;
+                }
             }
         }
     }
@@ -184,26 +189,13 @@ impl PathTracer<'_> {
     fn scatter(&self, sampler: &dyn Sampler, wave: &mut Wave, depth: u32) {
         let Self { scene, rules } = self;
         let Wave { rays, hits, paths, shadow, arena, counters, .. } = wave;
-        let Paths { first, list, next, by_hit, by_material, values, .. } = paths;
-        let (list, rays, hits) = match depth {
-            0 => (&*first, &rays[..], &hits[..]),
-            _ => (&*list, list.rays.as_slice(), &paths.hits[..]),
-        };
+        let Paths { first, list, hits: list_hits, next, by_hit, by_material, values } = paths;
+        let at = paths_at(depth, [first, list], rays, [hits, list_hits]);
         let active = &by_hit.active[..];
-        by_material.sort(active.len(), |vertex| scene.material_at(&hits[active[vertex] as usize]));
-        let mut vertices = Vertices::new(Stage {
-            rules,
-            scene,
-            sampler,
-            arena,
-            depth,
-            states: list.states.as_slice(),
-            samples: list.samples.as_slice(),
-            rays,
-            hits,
-            active,
-            values,
-        });
+        by_material
+            .sort(active.len(), |vertex| scene.material_at(&at.hits[active[vertex] as usize]));
+        let mut vertices =
+            Vertices::new(Stage { rules, scene, sampler, arena, depth, paths: at, active, values });
         for (material, range) in by_material.runs() {
             for block in by_material.order()[range].chunks(BLOCK) {
                 vertices.fill(material, block);
@@ -211,13 +203,43 @@ impl PathTracer<'_> {
                     vertices.sample_lights(slot, shadow);
                 }
                 if rules.samples_direction(depth) {
-                    vertices.sample_directions(next, shadow);
+                    vertices.sample_directions(next);
                 }
                 counters.rejected += vertices.take_rejected();
             }
         }
         drop(vertices);
         arena.reset();
+        if !rules.extends_path(depth) {
+            // Only infinite lights are left to be hit: shadow rays test whether they are visible.
+            let paths = next.view();
+            for_each_escaped(
+                rules,
+                scene,
+                &paths,
+                paths.rays.len(),
+                |i| i,
+                |path, found| {
+                    if !found.is_black() {
+                        shadow.push(paths.samples[path] as usize, paths.rays[path], found);
+                    }
+                },
+            );
+            next.clear();
+        }
+    }
+}
+
+/// The paths at a depth: at the camera those of the wave, with its rays and hits.
+fn paths_at<'a>(
+    depth: u32,
+    [first, list]: [&'a PathList; 2],
+    rays: &'a [Ray],
+    [hits, list_hits]: [&'a [Hit]; 2],
+) -> PathsAt<'a> {
+    match depth {
+        0 => PathsAt { rays, hits, at_camera: true, ..first.view() },
+        _ => PathsAt { hits: list_hits, ..list.view() },
     }
 }
 

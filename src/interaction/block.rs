@@ -2,11 +2,12 @@
 
 use glam::Vec3;
 
-use super::{Source, SurfaceInteraction, SurfacePlace, oriented};
-use crate::geometry::{Axes, Bounded, BoundedPoint, Ray, Xyz};
+use super::{Hit, Source, SurfaceInteraction, SurfacePlace, oriented};
+use crate::geometry::{Bounded, BoundedPoint, Ray, Xyz};
 use crate::shape::{TriangleMesh, triangle_normal_wide};
 use crate::simd::{
-    Block, BlockKernel, InstructionSet, LaneMask, ROW, RowMask, Rows, groups, indices, lanes_within,
+    Block, BlockKernel, InstructionSet, LaneMask, MAX_LANES, ROW, RowMask, Rows, groups, indices,
+    lanes_within,
 };
 
 /// Most hits of a block.
@@ -27,18 +28,6 @@ pub struct HitBlock<'a> {
     p_error: Rows<3>,
     n: Rows<3>,
     pub(crate) shading_n: Rows<3>,
-}
-
-/// The hits that a block is filled with.
-pub(crate) trait FoundHits<'a> {
-    /// Number of hits.
-    fn len(&self) -> usize;
-    /// Indices of shape and triangle of a hit.
-    fn place(&self, i: usize) -> [u32; 2];
-    /// The distance of a hit, and its barycentric coordinates.
-    fn t_and_b(&self, i: usize) -> &'a [f32; 4];
-    /// Its ray, with a unit direction.
-    fn ray(&self, i: usize) -> &'a Ray;
 }
 
 /// The geometry of hits in the lanes of vectors.
@@ -71,17 +60,18 @@ impl<'a> HitBlock<'a> {
         }
     }
 
-    /// Replaces the hits by others.
+    /// Replaces the hits by those of some rays, given by their indices.
     ///
     /// # Panics
-    /// If there are more than [`BLOCK`], or a place is not on the meshes.
+    /// If there are none or more than [`BLOCK`], or a hit is not on the meshes.
     #[inline]
-    pub(crate) fn fill(&mut self, found: &impl FoundHits<'a>) {
-        self.len = found.len();
-        for (i, place) in self.places[..self.len].iter_mut().enumerate() {
-            *place = found.place(i);
+    pub(crate) fn fill(&mut self, which: &[u32], rays: &[Ray], found: &[Hit]) {
+        self.len = which.len();
+        for (place, &i) in self.places[..self.len].iter_mut().zip(which) {
+            let Hit { shape, triangle, .. } = found[i as usize];
+            *place = [shape, triangle];
         }
-        let imprecise = self.instruction_set.run_block(Locate { hits: self, found });
+        let imprecise = self.instruction_set.run_block(Locate { block: self, which, rays, found });
         for i in indices(imprecise) {
             self.locate_one(i);
         }
@@ -102,9 +92,10 @@ impl<'a> HitBlock<'a> {
     /// The hit with this index.
     ///
     /// # Panics
-    /// If `i` is [`BLOCK`] or more. Beyond the last hit it is one of an earlier block.
+    /// If there is no such hit.
     #[inline]
     pub fn get(&self, i: usize) -> SurfaceInteraction<'a> {
+        assert!(i < self.len, "hit {i} of {}", self.len);
         let place = self.place(i);
         SurfaceInteraction {
             p: BoundedPoint { p: self.p.get(i).into(), error: self.p_error.get(i).into() },
@@ -167,39 +158,30 @@ impl<'a> HitBlock<'a> {
     }
 }
 
-impl<F: Block> Hits<F> {
-    /// The shading frames, with arbitrary tangents.
-    #[inline(always)]
-    pub fn axes(&self) -> Axes<F> {
-        Axes::from_normal(self.shading_n)
-    }
-}
-
 /// Computes the geometry of all hits, and tells for which the normals are not precise enough.
-struct Locate<'a, 'b, H> {
-    hits: &'a mut HitBlock<'b>,
-    found: &'a H,
+struct Locate<'a, 'b> {
+    block: &'a mut HitBlock<'b>,
+    which: &'a [u32],
+    rays: &'a [Ray],
+    found: &'a [Hit],
 }
 
-/// Most lanes.
-const MOST: usize = 16;
-
-impl<'b, H: FoundHits<'b>> BlockKernel for Locate<'_, 'b, H> {
+impl BlockKernel for Locate<'_, '_> {
     type Output = RowMask;
 
     #[inline(always)]
     fn run<F: Block>(self) -> RowMask {
-        let Self { hits, found } = self;
+        let Self { block, which, rays, found } = self;
         let HitBlock {
             meshes, last_vertices, len, places, b, wo, p, p_error, n, shading_n, ..
-        } = hits;
+        } = block;
         let last = *len - 1;
         let mut of_shape = (places[0][0], Vertices::of(meshes, last_vertices, places[0][0]));
         let mut imprecise = 0;
         for at in groups::<F>(*len) {
             // Vertices of each corner, and their normals.
-            let mut corners = [[&NOTHING; MOST]; 3];
-            let mut normals = [[&NOTHING; MOST]; 3];
+            let mut corners = [[&NOTHING; MAX_LANES]; 3];
+            let mut normals = [[&NOTHING; MAX_LANES]; 3];
             let mut has_normals = false;
             for lane in 0..F::LANES {
                 let [shape, triangle] = places[(at + lane).min(last)];
@@ -220,9 +202,10 @@ impl<'b, H: FoundHits<'b>> BlockKernel for Locate<'_, 'b, H> {
                 }
             }
             let corners = gather(&corners);
-            let [_, b0, b1, b2] = F::gather4(|lane| found.t_and_b((at + lane).min(last)));
+            let [_, b0, b1, b2] =
+                F::gather4(|lane| found[which[(at + lane).min(last)] as usize].t_and_b());
             let [.., dx, dy, dz, _] = F::gather(|lane| {
-                bytemuck::cast_ref::<Ray, [f32; 8]>(found.ray((at + lane).min(last)))
+                bytemuck::cast_ref::<Ray, [f32; 8]>(&rays[which[(at + lane).min(last)] as usize])
             });
             let weights = [b0, b1, b2];
             let bounded = Bounded::on_triangle(corners, weights);
@@ -244,12 +227,12 @@ impl<'b, H: FoundHits<'b>> BlockKernel for Locate<'_, 'b, H> {
 
 /// Vectors of three corners.
 #[inline(always)]
-fn gather<F: Block>([a, b, c]: &[[&[f32; 4]; MOST]; 3]) -> [Xyz<F>; 3] {
+fn gather<F: Block>([a, b, c]: &[[&[f32; 4]; MAX_LANES]; 3]) -> [Xyz<F>; 3] {
     [gather_vector(a), gather_vector(b), gather_vector(c)]
 }
 
 #[inline(always)]
-fn gather_vector<F: Block>(vectors: &[&[f32; 4]; MOST]) -> Xyz<F> {
+fn gather_vector<F: Block>(vectors: &[&[f32; 4]; MAX_LANES]) -> Xyz<F> {
     let [x, y, z, _] = F::gather4(|lane| vectors[lane]);
     Xyz { x, y, z }
 }

@@ -1,11 +1,13 @@
 //! [`SurfaceInteraction`]: position, normals and derivatives at a hit.
 
 mod block;
+mod hit;
 
 use glam::{Vec2, Vec3};
 
 pub use block::{BLOCK, HitBlock};
-pub(crate) use block::{FoundHits, LastVertex};
+pub(crate) use block::{Hits, LastVertex};
+pub use hit::Hit;
 
 use crate::geometry::{BoundedPoint, Frame, Ray, Xyz, unit, unit_cross};
 use crate::shape::{TriangleMesh, shading_normal_wide, triangle_normal};

@@ -1,5 +1,6 @@
 //! Blocks of light samples, and of rays that reach lights: what kinds of lights answer for a block get, and what they fill.
 
+use bytemuck::Zeroable;
 use glam::{Vec2, Vec3};
 
 use super::sample::{LightHit, LightSample};
@@ -33,19 +34,27 @@ impl Receivers<'_> {
     }
 
     /// The point with this index, in world space.
+    ///
+    /// # Panics
+    /// If there is no such point, as for all methods with an index.
     #[inline]
     pub fn p(&self, i: usize) -> Vec3 {
+        assert!(i < self.len, "point {i} of {}", self.len);
         self.p.get(i).into()
     }
 
-    /// Its sample value in `[0, 1)²`.
+    /// Its sample value in `[0, 1)²`; zero if all lights of the scene are delta lights.
     #[inline]
     pub fn u(&self, i: usize) -> Vec2 {
-        self.u[i % ROW]
+        assert!(i < self.len, "point {i} of {}", self.len);
+        self.u[i]
     }
 }
 
 /// A [`LightSample`] for each point of a block, or none.
+///
+/// There are none at first: [`set`](Self::set) has to be called only for those that exist.
+#[derive(Zeroable)]
 pub struct LightSamples {
     pub(crate) li: Rows<3>,
     pub(crate) wi: Rows<3>,
@@ -68,15 +77,18 @@ pub(super) struct Incident<F> {
 }
 
 impl LightSamples {
-    /// No samples.
-    pub(crate) fn new() -> Self {
-        let (zero, zeros) = (Row::splat(0.0), Rows::splat(0.0));
-        Self { li: zeros, wi: zeros, pdf: zero, from: zeros, t_max: Row::splat(f32::INFINITY) }
+    /// Removes all samples.
+    pub(crate) fn clear(&mut self) {
+        self.pdf = Row::splat(0.0);
     }
 
-    /// The sample for the point with this index.
+    /// Sets the sample for the point with this index.
+    ///
+    /// # Panics
+    /// If the index is [`BLOCK`](crate::interaction::BLOCK) or more.
     #[inline]
     pub fn set(&mut self, i: usize, sample: Option<LightSample>) {
+        assert!(i < ROW, "sample {i} of a block");
         let Some(LightSample { li, wi, pdf, from }) = sample else {
             self.pdf.set(i, 0.0);
             return;
@@ -130,7 +142,7 @@ pub(super) trait WideLight {
     fn incident<F: Float>(&self, p: Xyz<F>, u: [F; 2]) -> (Incident<F>, F::Mask);
 }
 
-/// Samples a light for all points, but for those that are returned.
+/// Samples a light for all points. Returns those where f32 is not precise enough: their samples are not set.
 #[inline]
 pub(super) fn sample_wide<L: WideLight>(
     light: &L,
@@ -193,38 +205,46 @@ impl EscapedRays<'_> {
     }
 
     /// The ray with this index.
+    ///
+    /// # Panics
+    /// If there is no such ray.
     #[inline]
     pub fn get(&self, i: usize) -> LightHit<'static> {
+        assert!(i < self.len, "ray {i} of {}", self.len);
         LightHit::outside(self.origin.get(i).into(), self.wi.get(i).into())
     }
 }
 
 /// What a light emits against each ray of a block, and the density with which it would have been sampled.
+///
+/// Nothing at first: [`set`](Self::set) has to be called only for rays that reach the light.
+#[derive(Zeroable)]
 pub struct Emitted {
     pub(crate) le: Rows<3>,
     pub(crate) pdf: Row,
 }
 
 impl Emitted {
-    /// Nothing.
-    pub(crate) fn new() -> Self {
-        Self { le: Rows::splat(0.0), pdf: Row::splat(0.0) }
+    /// Nothing for all rays.
+    pub(crate) fn clear(&mut self) {
+        self.fill(Spectrum::BLACK, 0.0);
     }
 
-    /// Radiance and density for the ray with this index.
+    /// Sets radiance and density for the ray with this index. The density matters only if it [is needed](EscapedRays::needs_pdf).
+    ///
+    /// # Panics
+    /// If the index is [`BLOCK`](crate::interaction::BLOCK) or more.
     #[inline]
     pub fn set(&mut self, i: usize, le: Spectrum, pdf: f32) {
+        assert!(i < ROW, "ray {i} of a block");
         self.le.set(i, le.to_array());
         self.pdf.set(i, pdf);
     }
 
-    /// The same radiance and density for all rays.
+    /// Sets the same radiance and density for all rays.
     pub(super) fn fill(&mut self, le: Spectrum, pdf: f32) {
-        let mut rows = Rows::splat(0.0);
-        for i in 0..ROW {
-            rows.set(i, le.to_array());
-        }
-        (self.le, self.pdf) = (rows, Row::splat(pdf));
+        self.le = Rows::of(le.to_array());
+        self.pdf = Row::splat(pdf);
     }
 }
 
@@ -282,7 +302,7 @@ mod tests {
             for instruction_set in InstructionSet::available() {
                 let receivers = Receivers { instruction_set, len, p: &p, u: &u };
                 for (index, light) in lights.iter().enumerate() {
-                    let mut samples = LightSamples::new();
+                    let mut samples = LightSamples::zeroed();
                     light.sample_li_block(&receivers, &mut samples);
                     for (i, &u) in u.iter().enumerate().take(len) {
                         let pdf = samples.pdf.get(i);

@@ -95,16 +95,17 @@ pub trait Light: Send + Sync {
         None
     }
 
-    /// [`sample_li`](Light::sample_li) for a block of points. A kind that is faster for several at a time overrides this,
-    /// with bit-identical results.
+    /// Sets [`sample_li`](Light::sample_li) of each of a block of points where it is not `None`. The provided method is compiled for
+    /// each light, so that a block costs one call through a pointer. A light that is faster for several points at a time overrides
+    /// this, with bit-identical results.
     fn sample_li_block(&self, receivers: &Receivers, samples: &mut LightSamples) {
         for i in 0..receivers.len() {
             samples.set(i, self.sample_li(receivers.p(i), receivers.u(i)));
         }
     }
 
-    /// [`le`](Light::le) and [`pdf_li`](Light::pdf_li) for a block of rays that leave the scene. A kind that is faster for
-    /// several at a time overrides this, with bit-identical results.
+    /// Sets [`le`](Light::le) and [`pdf_li`](Light::pdf_li) of each of a block of rays that leave the scene. A light that is faster
+    /// for several rays at a time overrides this, with bit-identical results.
     fn escaped_block(&self, rays: &EscapedRays, emitted: &mut Emitted) {
         for i in 0..rays.len() {
             let hit = rays.get(i);

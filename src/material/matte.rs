@@ -69,15 +69,16 @@ impl Material for MatteMaterial {
         if self.bump.is_some() {
             return bsdfs.fill(hits, |si| self.compute_scattering(si, arena));
         }
-        // Reflecting nothing is reflecting black; a sigma of 0 gives the bits of Lambertian reflection.
+        // A black lobe stands for no lobe. A sigma of 0 gives the bits of Lambertian reflection.
         let lambertian = |kd| LambertianReflection::new(reflectance(kd).unwrap_or_default());
-        let rough = |kd, sigma: f32| {
-            OrenNayar::new(reflectance(kd).unwrap_or_default(), sigma.clamp(0.0, 90.0))
+        let rough = |kd, sigma: f32| match reflectance(kd) {
+            Some(r) => OrenNayar::new(r, sigma.clamp(0.0, 90.0)),
+            None => OrenNayar::new(Spectrum::BLACK, 0.0),
         };
         let constant_sigma = self.sigma.as_ref().map_or(Some(0.0), |sigma| sigma.constant());
         match (self.kd.constant(), constant_sigma) {
-            (Some(kd), Some(0.0)) => bsdfs.fill_constant(lambertian(kd)),
-            (Some(kd), Some(sigma)) => bsdfs.fill_constant(rough(kd, sigma)),
+            (Some(kd), Some(0.0)) => bsdfs.fill_constant(hits, lambertian(kd)),
+            (Some(kd), Some(sigma)) => bsdfs.fill_constant(hits, rough(kd, sigma)),
             _ => {
                 let (mut kd, mut sigma) = ([Spectrum::BLACK; BLOCK], [0.0; BLOCK]);
                 self.kd.evaluate_block(hits, &mut kd[..hits.len()]);

@@ -34,11 +34,16 @@ pub type Read = fn(&Table, &Textures) -> Result<Arc<dyn Material>, Fault>;
 pub trait Material: Send + Sync {
     /// The lobes at a hit. A material with bump mapping replaces the shading geometry of `si` first.
     ///
-    /// Lobes may borrow from the material, or from `arena`, which keeps them until the hit has been shaded.
+    /// Lobes may borrow from the material, or from `arena`, which keeps them until all hits of a wave have been shaded. It may be
+    /// called twice for a hit.
     fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, arena: &'a Arena) -> Bsdf<'a>;
 
-    /// Fills `bsdfs` with the lobes at a block of hits, as [`compute_scattering`](Self::compute_scattering) returns them for
-    /// each. A material that is faster for several at a time overrides this.
+    /// [Fills](BsdfBlock::fill) `bsdfs` once, with the lobes at a block of hits, as
+    /// [`compute_scattering`](Self::compute_scattering) returns them for each. The provided method is compiled for each material, so
+    /// that a block costs one call through a pointer. Materials of the crate that are faster for several hits at a time override
+    /// this, and so may one that forwards to another.
+    ///
+    /// A single lobe of one of the crate's models is the fastest, in a frame with arbitrary tangents ([`Bsdf::isotropic`]).
     fn scatter_block<'a>(
         &'a self,
         hits: &mut HitBlock,

@@ -13,7 +13,7 @@ use crate::sampling::SampleId;
 
 /// How many samples go through the integrator together: enough for batches to pay, few enough for
 /// rays and hits to stay in the second-level cache.
-const WAVE: usize = 1024;
+const WAVE: usize = 2048;
 
 /// How many points estimate a reflectance that has no closed form.
 const RHO_POINTS: usize = 16;
@@ -41,11 +41,12 @@ impl<'a> Worker<'a> {
         let largest = Window { min: UVec2::ZERO, max: size };
         let tile = Film::new(film.resolution, largest, pass.contents)?;
         let shadow_rays = pass.estimator.shadow_rays();
-        let bytes = Wave::bytes(WAVE, shadow_rays);
+        let materials = pass.scene.material_count();
+        let bytes = Wave::bytes(WAVE, shadow_rays, materials);
         if !is_available(bytes) {
             return Err(RenderError::OutOfMemory(bytes as u64));
         }
-        let wave = Wave::with_capacity(WAVE, shadow_rays, cancelled);
+        let wave = Wave::with_capacity(WAVE, shadow_rays, materials, cancelled);
         let rho_choices = std::array::from_fn(|i| (i as f32 * 0.754_877_7).fract());
         let (runs, rho_points) = (Vec::with_capacity(WAVE), lattice());
         Ok(Self { pass, wave, runs, tile, rho_choices, rho_points })

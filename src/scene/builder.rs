@@ -148,8 +148,8 @@ impl SceneBuilder {
         self
     }
 
-    /// Chooses the instruction set that the acceleration structure is built for and rays are traced with, for
-    /// measuring and tests. Default: the fastest that the processor has. All give the same hits.
+    /// Chooses the instruction set that the acceleration structure is built for, rays are traced and hits are shaded with, for
+    /// measuring and tests. Default: the fastest that the processor has. All give the same picture.
     pub fn instruction_set(self, instruction_set: InstructionSet) -> Self {
         Self { instruction_set, ..self }
     }

@@ -123,7 +123,9 @@ impl Scene {
         arena: &'a Arena,
         bsdfs: &mut BsdfBlock<'a>,
     ) {
+        bsdfs.clear();
         self.materials[material as usize].scatter_block(hits, arena, bsdfs);
+        assert_eq!(bsdfs.len(), hits.len(), "a material fills the lobes of all hits of a block");
     }
 
     /// Wall-clock time to build the acceleration structure, in seconds.
@@ -142,8 +144,7 @@ impl Scene {
         SurfaceInteraction::on_shape(mesh, place, -ray.d)
     }
 
-    /// The lobes at a hit. The material may replace the shading geometry of `si`. All integrators turn hits into
-    /// lobes by this method.
+    /// The lobes at a hit. The material may replace the shading geometry of `si`.
     ///
     /// # Panics
     /// Like [`Scene::interaction`].

@@ -267,7 +267,6 @@ operators! {
     Avx512: Div::div = _mm512_div_ps;
     Bits16: BitOr::bitor = _mm512_or_si512;
     Bits16: BitXor::bitxor = _mm512_xor_si512;
-    Bits16: Add::add = _mm512_add_epi32;
 }
 
 impl Neg for Avx512 {
@@ -285,6 +284,11 @@ impl Bits for Bits16 {
     fn splat(x: i32) -> Self {
         // SAFETY: as above.
         unsafe { Self(_mm512_set1_epi32(x)) }
+    }
+    #[inline(always)]
+    fn wrapping_add(self, other: Self) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm512_add_epi32(self.0, other.0)) }
     }
     #[inline(always)]
     fn is_negative(self) -> Self {

@@ -1,6 +1,6 @@
 //! [`Float`] and [`Block`] for four f32: glam's [`Vec4`], which has the vectors of every target.
 
-use std::ops::{Add, BitOr, BitXor};
+use std::ops::{BitOr, BitXor};
 
 use glam::{BVec4A, Mat4, Vec2, Vec4};
 
@@ -48,13 +48,16 @@ macro_rules! operators {
 operators! {
     BitOr::bitor = |a: i32, b: i32| a | b;
     BitXor::bitxor = |a: i32, b: i32| a ^ b;
-    Add::add = |a: i32, b: i32| a.wrapping_add(b);
 }
 
 impl Bits for Bits4 {
     #[inline(always)]
     fn splat(x: i32) -> Self {
         Self([x; 4])
+    }
+    #[inline(always)]
+    fn wrapping_add(self, other: Self) -> Self {
+        Self(four(|i| self.0[i].wrapping_add(other.0[i])))
     }
     #[inline(always)]
     fn is_negative(self) -> Self {

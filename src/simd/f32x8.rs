@@ -66,7 +66,6 @@ operators! {
     Mask8: BitXor::bitxor = _mm256_xor_ps;
     Bits8: BitOr::bitor = _mm256_or_si256;
     Bits8: BitXor::bitxor = _mm256_xor_si256;
-    Bits8: Add::add = _mm256_add_epi32;
 }
 
 impl Neg for F32x8 {
@@ -120,6 +119,11 @@ impl Bits for Bits8 {
     fn splat(x: i32) -> Self {
         // SAFETY: as above.
         unsafe { Self(_mm256_set1_epi32(x)) }
+    }
+    #[inline(always)]
+    fn wrapping_add(self, other: Self) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm256_add_epi32(self.0, other.0)) }
     }
     #[inline(always)]
     fn is_negative(self) -> Self {

@@ -92,13 +92,17 @@ pub trait LaneMask:
     fn all(self) -> bool;
 }
 
-/// A signed integer for each lane. Sums wrap.
-pub trait Bits: Copy + BitOr<Output = Self> + BitXor<Output = Self> + Add<Output = Self> {
+/// A signed integer for each lane.
+pub trait Bits: Copy + BitOr<Output = Self> + BitXor<Output = Self> {
     /// The same integer in all lanes.
     fn splat(x: i32) -> Self;
+    fn wrapping_add(self, other: Self) -> Self;
     /// -1 in lanes that are negative, 0 in others.
     fn is_negative(self) -> Self;
 }
+
+/// Most lanes of a [`Block`].
+pub const MAX_LANES: usize = 16;
 
 /// A [`Float`] of f32 that is loaded from memory and stored to it.
 pub trait Block: Float {

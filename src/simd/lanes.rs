@@ -110,8 +110,8 @@ pub trait Lanes: Vector {
     fn flip_mask(mask: Self::Mask, flip: u32) -> Mask {
         if mask.any() { flipped(mask.bits(), flip) } else { 0 }
     }
-    /// Writes the lanes of `mask`, lowest first, next to each other, of two vectors. All are flipped. What comes behind as
-    /// many entries as `mask` has lanes is unspecified.
+    /// Writes the lanes of `mask`, lowest first, next to each other, of two vectors. All are flipped. Entries past
+    /// the number of lanes in `mask` are unspecified.
     #[inline(always)]
     fn compress([a, b]: [Self; 2], mut mask: Mask, flip: u32, to: [&mut [f32; LANES]; 2]) {
         let ([a, b], [to_a, to_b]) = ([a.to_array(), b.to_array()], to);

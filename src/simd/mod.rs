@@ -32,7 +32,7 @@ mod f32x8;
 #[cfg(target_arch = "x86_64")]
 mod transpose;
 
-pub use float::{Bits, Block, Float, LaneMask, eighth_turn, four};
+pub use float::{Bits, Block, Float, LaneMask, MAX_LANES, eighth_turn, four};
 pub use instruction_set::{BlockKernel, InstructionSet, InstructionSetError};
 pub use lanes::{Kernel, LANES, LaneIndices, Lanes, Mask, Vector, splat3};
 pub use row::{ROW, Row, RowMask, Rows, groups, indices, lanes_within};

@@ -1,5 +1,7 @@
 //! [`Row`] and [`Rows`]: numbers for each hit of a block.
 
+use bytemuck::Zeroable;
+
 use super::float::Block;
 
 /// Most hits of a block. Their data stay in the first-level cache.
@@ -9,7 +11,7 @@ pub const ROW: usize = 64;
 pub type RowMask = u64;
 
 /// One number for each hit of a block.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Zeroable)]
 #[repr(align(64))]
 pub struct Row([f32; ROW]);
 
@@ -46,7 +48,7 @@ impl Row {
 }
 
 /// `N` numbers for each hit of a block, such as the coordinates of a vector: a row of each.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Zeroable)]
 pub struct Rows<const N: usize>([Row; N]);
 
 impl<const N: usize> Rows<N> {
@@ -54,6 +56,16 @@ impl<const N: usize> Rows<N> {
     #[inline(always)]
     pub const fn splat(x: f32) -> Self {
         Self([Row::splat(x); N])
+    }
+
+    /// These numbers for each hit.
+    #[inline(always)]
+    pub fn of(numbers: [f32; N]) -> Self {
+        let mut rows = Self::splat(0.0);
+        for (row, number) in rows.0.iter_mut().zip(numbers) {
+            *row = Row::splat(number);
+        }
+        rows
     }
 
     /// The numbers of the lanes from `at` on.

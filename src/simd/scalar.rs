@@ -33,6 +33,10 @@ macro_rules! scalars {
                 x.into()
             }
             #[inline(always)]
+            fn wrapping_add(self, other: Self) -> Self {
+                self.wrapping_add(other)
+            }
+            #[inline(always)]
             fn is_negative(self) -> Self {
                 self >> (Self::BITS - 1)
             }

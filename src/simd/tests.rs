@@ -57,7 +57,7 @@ impl BlockKernel for Everything<'_> {
                 mask(F::Mask::splat(false)),
                 F::splat(0.1),
                 F::constant(0.1),
-                bits(a.to_bits() + F::Bits::splat(3)),
+                bits(a.to_bits().wrapping_add(F::Bits::splat(3))),
                 bits(a.to_bits() ^ b.to_bits()),
                 bits(a.to_bits() | b.to_bits()),
                 bits(a.to_bits().is_negative()),

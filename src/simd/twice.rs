@@ -69,6 +69,7 @@ impl<M: LaneMask> LaneMask for Twice<M> {
 impl<B: Bits> Bits for Twice<B> {
     methods! {
         is_negative() -> Self;
+        wrapping_add(other) -> Self;
     }
     #[inline(always)]
     fn splat(x: i32) -> Self {

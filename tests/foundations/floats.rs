@@ -45,28 +45,33 @@ fn gamma_is_its_formula() {
     }
 }
 
-/// What stepping away from a surface relies on: next_up and next_down move by one float, through zero
-/// of either sign and over powers of two. It holds the standard library to that; nothing was broken.
+/// A ray's origin is the float next to the point that was moved by its error, away from it: through zero of either sign and
+/// over powers of two. Caught: a step that stays at zero, or leads towards the surface below zero.
 #[test]
-fn neighbours_of_floats() {
-    for zero in [0.0_f32, -0.0] {
-        assert_eq!(zero.next_up(), f32::from_bits(1));
-        assert_eq!(zero.next_down(), -f32::from_bits(1));
-    }
+fn origins_are_the_next_floats() {
     for trial in 0..100_000 {
         let mut rng = Rng::new(701, trial);
-        let x = if trial % 4 == 0 {
-            rng.coordinate(38.0).log2().round().exp2()
-        } else {
-            rng.coordinate(38.0)
+        let mut number = || match rng.below(4) {
+            0 => rng.coordinate(30.0).log2().round().exp2(),
+            _ => rng.coordinate(30.0),
         };
-        if !x.is_finite() {
+        let (x, error) = (number(), number().abs());
+        // Every third ends at zero.
+        let x = if trial % 3 == 0 { error.copysign(x) } else { x };
+        if !x.is_finite() || !error.is_finite() || error == 0.0 {
             continue;
         }
-        assert!(x.next_down() < x && x < x.next_up(), "{x}");
-        assert_eq!(x.next_up().next_down(), x);
-        let middle = 0.5 * (f64::from(x) + f64::from(x.next_up()));
-        assert!(middle as f32 == x || middle as f32 == x.next_up(), "{x} has a float between");
+        let point = BoundedPoint { p: Vec3::splat(x), error: Vec3::splat(error) };
+        for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+            let along = |v: Vec3| v.dot(axis);
+            let above = along(point.ray_origin(axis, axis));
+            let below = along(point.ray_origin(axis, -axis));
+            assert_eq!(above, (x + error).next_up(), "trial {trial}: {x} and {error}");
+            assert_eq!(below, (x - error).next_down(), "trial {trial}: {x} and {error}");
+            // Across the normal nothing moves.
+            let aside = point.ray_origin(axis, axis) - above * axis;
+            assert_eq!(aside, point.p - x * axis, "trial {trial}");
+        }
     }
 }
 

@@ -208,3 +208,38 @@ fn densities_are_asked_for_the_points_of_samples() {
         assert!(known > 100, "{what}: {known}");
     }
 }
+
+/// A point light that remembers the sample values that it was given, and may tell a density that is not a number.
+struct Delta {
+    pdf: f32,
+    others_than_zero: Arc<AtomicU64>,
+}
+
+impl Light for Delta {
+    fn is_delta(&self) -> bool {
+        true
+    }
+    fn sample_li(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
+        self.others_than_zero.fetch_add(u64::from(u != Vec2::ZERO), Ordering::Relaxed);
+        let (wi, distance) = (Vec3::new(3.0, 5.0, -4.0) - p).normalize_and_length();
+        let li = Spectrum::splat(100.0 / (distance * distance));
+        Some(LightSample::from_point(li, wi, self.pdf, p + wi * distance))
+    }
+}
+
+/// Where all lights are delta lights their samples are functions of the point alone; and a density that is NaN shows as samples
+/// that are not finite. Caught: values of directions given to lights, in blocks after the first; samples of no density dropped
+/// in silence.
+#[test]
+fn delta_lights_get_no_sample_values_and_densities_are_checked() {
+    for pdf in [1.0, f32::NAN] {
+        let others_than_zero = Arc::<AtomicU64>::default();
+        let light = Delta { pdf, others_than_zero: Arc::clone(&others_than_zero) };
+        let scene = ball_over_floor().light(light).build().unwrap();
+        let settings = independent(16, PathIntegrator::new(3));
+        let view = chapter_view(UVec2::splat(24));
+        let rendered = render(&scene, &view, &settings, &RenderOptions::default()).unwrap();
+        assert_eq!(others_than_zero.load(Ordering::Relaxed), 0);
+        assert_eq!(rendered.non_finite > 0, pdf.is_nan(), "{}", rendered.non_finite);
+    }
+}

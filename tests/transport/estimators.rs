@@ -29,7 +29,7 @@ fn scene() -> SceneBuilder {
     moon.normals = ball(6).positions;
     let glow = |l: f32, two_sided| Emission { radiance: Spectrum::new(l, l, 0.5 * l), two_sided };
     ball_over_floor()
-        // Rough, and with vertex normals: surfaces that are not flat Lambertian take another path through the code.
+        // Rough, and with vertex normals.
         .material("red", MatteMaterial::new([0.8, 0.1, 0.2]).with_sigma(20.0))
         .lamp("lamp", lamp, glow(4.0, true))
         .glowing_shape("moon", moon, "red", glow(5.0, false))
@@ -54,8 +54,7 @@ fn estimate(integrator: impl Integrator + 'static, kind: SamplerKind) -> Vec<(f6
     ))
 }
 
-/// Direct light, by both integrators. Seen to fail with the power heuristic's arguments exchanged, at flat Lambertian
-/// surfaces and at others.
+/// Direct light, by both integrators. Seen to fail with the power heuristic's arguments exchanged.
 #[test]
 fn direct_light_has_one_value() {
     let direct = |strategy| any(DirectIntegrator { strategy });

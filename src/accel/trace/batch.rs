@@ -4,12 +4,12 @@ use arrayvec::ArrayVec;
 
 use super::beam::trace_beam;
 use super::frustum::MAX_PACKETS;
-use super::hit::Hit;
 use super::packet::Packet;
 use super::single_ray::{AnyHit, ClosestHit, Found, Start};
 use super::stack::Stack;
 use crate::accel::tree::Bvh;
 use crate::geometry::Ray;
+use crate::interaction::Hit;
 use crate::simd::{Kernel, LANES, Lanes};
 
 /// What a batch is asked for: [`Hit`] for the closest hit of each ray, `bool` for whether it hits anything.

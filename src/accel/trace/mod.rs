@@ -9,7 +9,6 @@
 mod batch;
 mod beam;
 mod frustum;
-mod hit;
 mod leaf_test;
 mod packet;
 mod single_ray;
@@ -17,6 +16,5 @@ mod slabs;
 mod stack;
 
 pub use batch::Batch;
-pub use hit::Hit;
 pub use single_ray::{AnyHit, ClosestHit, Start};
 pub use stack::Stack;

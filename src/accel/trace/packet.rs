@@ -2,10 +2,10 @@
 
 use glam::Vec3A;
 
-use super::hit::Hit;
 use super::leaf_test::{LeafTest, intersect_triangle};
 use crate::accel::tree::{Bvh, Leaf, Node};
 use crate::geometry::Ray;
+use crate::interaction::Hit;
 use crate::shape::{Crossing, Edges, ShearedRay, TriangleHit, longest_axis};
 use crate::simd::{LANES, LaneMask, Lanes, Mask, Vector, splat3};
 

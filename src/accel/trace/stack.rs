@@ -73,7 +73,7 @@ impl Stack {
     ) -> usize {
         let slots: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
         let slots = L::load(bytemuck::cast_ref::<_, [f32; LANES]>(&slots));
-        let slots = L::from_bits(slots.to_bits() + L::Bits::splat(first as i32));
+        let slots = L::from_bits(slots.to_bits().wrapping_add(L::Bits::splat(first as i32)));
         self.push(len, mask, slots, distances, flip)
     }
 

@@ -45,13 +45,15 @@ pub struct Wave<'a> {
 
 impl<'a> Wave<'a> {
     /// Bytes that [`with_capacity`](Self::with_capacity) allocates.
-    pub fn bytes(samples: usize, shadow_rays: usize) -> usize {
+    pub fn bytes(samples: usize, shadow_rays: usize, materials: usize) -> usize {
         let camera_ray = size_of::<SampleId>()
             + 2 * size_of::<Vec2>()
             + size_of::<Ray>()
             + size_of::<Hit>()
             + size_of::<Spectrum>();
-        samples * camera_ray + Paths::bytes(samples) + ShadowRays::bytes(samples * shadow_rays)
+        samples * camera_ray
+            + Paths::bytes(samples, materials)
+            + ShadowRays::bytes(samples * shadow_rays)
     }
 
     /// Whether the render was cancelled or its time is over. For integrators whose work on a wave has no bound: once it
@@ -66,11 +68,12 @@ impl<'a> Wave<'a> {
         self.is_cut
     }
 
-    /// A wave with capacity for `samples` samples, and for `shadow_rays` shadow rays each, of a render that ends when
-    /// `cancelled` says so.
+    /// A wave with capacity for `samples` samples, and for `shadow_rays` shadow rays each, in a scene of so many materials, of
+    /// a render that ends when `cancelled` says so.
     pub fn with_capacity(
         samples: usize,
         shadow_rays: usize,
+        materials: usize,
         cancelled: &'a (dyn Fn() -> bool + Sync),
     ) -> Self {
         Self {
@@ -81,7 +84,7 @@ impl<'a> Wave<'a> {
             hits: Vec::with_capacity(samples),
             radiance: Vec::with_capacity(samples),
             shadow: ShadowRays::with_capacity(samples * shadow_rays),
-            paths: Paths::with_capacity(samples),
+            paths: Paths::with_capacity(samples, materials),
             cancelled: Some(cancelled),
             ..Self::default()
         }

@@ -5,45 +5,45 @@ use std::ops::Range;
 /// Hits in the order of their materials, so that blocks have one material each. Those of the same material keep their order.
 #[derive(Default)]
 pub struct ByMaterial {
-    /// Per material of the scene: the wave that it was last met in, and its number there.
+    /// Per material of the scene: the sort that it was last met in, and its number there.
     last_met: Vec<(u64, u32)>,
-    wave: u64,
-    /// Per material of the wave: the material, and where its hits end.
+    /// Number of sorts so far.
+    sorts: u64,
+    /// Per material of the last sort: the material, and where its hits end.
     runs: Vec<(u32, usize)>,
-    /// Per hit: the number of its material in the wave.
+    /// Per hit: the number of its material.
     numbers: Vec<u32>,
     order: Vec<u32>,
 }
 
-/// Up to how many materials a pass for each is faster than counting.
+/// Most materials for which one pass each beats a counting sort.
 const FEW: usize = 4;
 
 impl ByMaterial {
-    /// Bytes for each hit of a wave.
-    pub const BYTES: usize = size_of::<(u32, usize)>() + 2 * size_of::<u32>();
+    /// Bytes for that many hits and materials.
+    pub const fn bytes(hits: usize, materials: usize) -> usize {
+        hits * (size_of::<(u32, usize)>() + 2 * size_of::<u32>())
+            + materials * size_of::<(u64, u32)>()
+    }
 
-    /// Room for that many hits.
-    pub fn with_capacity(hits: usize) -> Self {
+    /// Room for that many hits, in a scene of so many materials.
+    pub fn new(hits: usize, materials: usize) -> Self {
         Self {
+            last_met: vec![(0, 0); materials],
+            sorts: 0,
             runs: Vec::with_capacity(hits),
             numbers: Vec::with_capacity(hits),
             order: Vec::with_capacity(hits),
-            ..Self::default()
         }
-    }
-
-    /// Makes room for that many materials, which allocates the first time.
-    pub fn prepare(&mut self, materials: usize) {
-        self.last_met.resize(materials, (0, 0));
     }
 
     /// Sorts the hits 0 to `hits` by the material that `material_of` returns for each.
     ///
     /// # Panics
-    /// If it is not below the number that was [prepared](Self::prepare) for.
+    /// If it is not below the number of materials.
     pub fn sort(&mut self, hits: usize, material_of: impl Fn(usize) -> u32) {
-        let Self { last_met, wave, runs, numbers, order } = self;
-        *wave += 1;
+        let Self { last_met, sorts, runs, numbers, order } = self;
+        *sorts += 1;
         runs.clear();
         order.clear();
         if last_met.len() == 1 {
@@ -55,8 +55,8 @@ impl ByMaterial {
         for hit in 0..hits {
             let material = material_of(hit);
             let met = &mut last_met[material as usize];
-            if met.0 != *wave {
-                *met = (*wave, runs.len() as u32);
+            if met.0 != *sorts {
+                *met = (*sorts, runs.len() as u32);
                 runs.push((material, 0));
             }
             numbers.push(met.1);
@@ -111,8 +111,7 @@ mod tests {
 
     #[test]
     fn hits_are_sorted_and_keep_their_order() {
-        let mut by_material = ByMaterial::default();
-        by_material.prepare(6);
+        let mut by_material = ByMaterial::new(6, 6);
         for (wave, materials) in [[3, 1, 3, 3, 0, 1], [5, 5, 5, 5, 5, 2], [0; 6]].iter().enumerate()
         {
             by_material.sort(6, |hit| materials[hit]);

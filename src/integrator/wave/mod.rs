@@ -13,8 +13,8 @@ mod shadow_rays;
 
 pub use buffers::Wave;
 pub use counters::Counters;
-pub use escape::add_escaped;
-pub use paths::Paths;
+pub use escape::for_each_escaped;
+pub use paths::{PathList, Paths, PathsAt};
 pub use rules::PathRules;
 pub use scatter::{Stage, Vertices};
 pub use shadow_rays::ShadowRays;

@@ -73,6 +73,17 @@ pub struct PathList {
 }
 
 impl PathList {
+    /// The paths, before their hits are found.
+    pub fn view(&self) -> PathsAt<'_> {
+        PathsAt {
+            states: self.states.as_slice(),
+            samples: self.samples.as_slice(),
+            rays: self.rays.as_slice(),
+            hits: &[],
+            at_camera: false,
+        }
+    }
+
     const fn bytes(paths: usize) -> usize {
         Pushed::<Path>::bytes(paths) + Pushed::<u32>::bytes(paths) + Pushed::<Ray>::bytes(paths)
     }
@@ -85,11 +96,24 @@ impl PathList {
         }
     }
 
-    fn clear(&mut self) {
+    /// Removes all paths.
+    pub fn clear(&mut self) {
         self.states.clear();
         self.samples.clear();
         self.rays.clear();
     }
+}
+
+/// What is known about the paths at one depth. Element i of each slice belongs to the same path.
+#[derive(Clone, Copy)]
+pub struct PathsAt<'a> {
+    pub states: &'a [Path],
+    pub samples: &'a [u32],
+    pub rays: &'a [Ray],
+    /// Closest hits of the rays; empty before they are found.
+    pub hits: &'a [Hit],
+    /// Whether the paths are camera rays.
+    pub at_camera: bool,
 }
 
 /// The paths of a wave.
@@ -111,19 +135,19 @@ pub struct Paths {
 
 impl Paths {
     /// Bytes of all buffers for that many paths.
-    pub const fn bytes(paths: usize) -> usize {
-        3 * PathList::bytes(paths)
+    pub const fn bytes(paths: usize, materials: usize) -> usize {
+        ByMaterial::bytes(paths, materials)
+            + 3 * PathList::bytes(paths)
             + paths
                 * (size_of::<Hit>()
                     + 2 * size_of::<u32>()
-                    + ByMaterial::BYTES
                     + size_of::<SampleId>()
                     + 2 * size_of::<Vec2>()
                     + 2 * size_of::<f32>())
     }
 
-    /// Buffers with capacity for `paths` paths.
-    pub fn with_capacity(paths: usize) -> Self {
+    /// Buffers with capacity for `paths` paths, in a scene of so many materials.
+    pub fn with_capacity(paths: usize, materials: usize) -> Self {
         Self {
             first: PathList::with_capacity(paths),
             list: PathList::with_capacity(paths),
@@ -133,7 +157,7 @@ impl Paths {
                 active: Vec::with_capacity(paths),
                 escaped: Vec::with_capacity(paths),
             },
-            by_material: ByMaterial::with_capacity(paths),
+            by_material: ByMaterial::new(paths, materials),
             values: Values {
                 ids: Vec::with_capacity(paths),
                 direction: Vec::with_capacity(paths),
@@ -144,9 +168,8 @@ impl Paths {
         }
     }
 
-    /// Starts as many paths at the camera as there are rays, in a scene of so many materials.
-    pub fn start(&mut self, rays: usize, materials: usize) {
-        self.by_material.prepare(materials);
+    /// Starts as many paths at the camera as there are rays.
+    pub fn start(&mut self, rays: usize) {
         for sample in self.first.samples.as_slice().len()..rays {
             self.first.samples.push(sample as u32);
             self.first.states.push(Path {

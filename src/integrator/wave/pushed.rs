@@ -2,12 +2,11 @@
 
 use bytemuck::Zeroable;
 
-/// Most elements that are pushed at a time.
-pub const MOST: usize = 16;
+use crate::simd::MAX_LANES;
 
 /// A list within a buffer that is allocated at once.
 pub struct Pushed<T> {
-    /// The elements, and room for [`MOST`] at least.
+    /// The elements, and room for [`MAX_LANES`] at least.
     buffer: Vec<T>,
     len: usize,
 }
@@ -21,12 +20,12 @@ impl<T> Default for Pushed<T> {
 impl<T: Copy + Zeroable> Pushed<T> {
     /// Bytes of a list for that many elements.
     pub const fn bytes(elements: usize) -> usize {
-        (elements + MOST) * size_of::<T>()
+        (elements + MAX_LANES) * size_of::<T>()
     }
 
     /// An empty list with room for that many elements.
     pub fn with_capacity(elements: usize) -> Self {
-        Self { buffer: vec![T::zeroed(); elements + MOST], len: 0 }
+        Self { buffer: vec![T::zeroed(); elements + MAX_LANES], len: 0 }
     }
 
     /// Adds an element.
@@ -43,27 +42,27 @@ impl<T: Copy + Zeroable> Pushed<T> {
     #[inline(always)]
     pub fn push_some(&mut self, mask: u32, elements: &[T]) {
         self.reserve();
-        let room: &mut [T; MOST] =
-            (&mut self.buffer[self.len..][..MOST]).try_into().expect("MOST elements");
+        let room: &mut [T; MAX_LANES] =
+            (&mut self.buffer[self.len..][..MAX_LANES]).try_into().expect("as many elements");
         let mut count = 0;
         for (i, &element) in elements.iter().enumerate() {
-            room[count % MOST] = element;
+            room[count % MAX_LANES] = element;
             count += (mask >> i & 1) as usize;
         }
         self.len += count;
     }
 
-    /// Makes room for [`MOST`] elements. Nothing to do if the list was made with enough.
+    /// Makes room for [`MAX_LANES`] elements. Nothing to do if the list was made with enough.
     #[inline(always)]
     fn reserve(&mut self) {
-        if self.buffer.len() < self.len + MOST {
+        if self.buffer.len() < self.len + MAX_LANES {
             self.grow();
         }
     }
 
     #[cold]
     fn grow(&mut self) {
-        self.buffer.resize(2 * self.len + 2 * MOST, T::zeroed());
+        self.buffer.resize(2 * self.len + 2 * MAX_LANES, T::zeroed());
     }
 
     /// Removes all elements.

@@ -113,6 +113,12 @@ pub struct Weighting {
 }
 
 impl Weighting {
+    /// Whether weights depend on the densities of light sampling.
+    #[inline]
+    pub fn needs_pdf(self) -> bool {
+        self.counts_bsdf_samples && self.probability > 0.0
+    }
+
     /// The weight of light that a path finds, from the densities with which the path and the light sample the direction.
     #[inline(always)]
     pub fn weight<F: Float>(self, path_pdf: F, light_pdf: F) -> F {

@@ -10,7 +10,7 @@ use crate::spectrum::Spectrum;
 pub struct ShadowRays {
     rays: Pushed<Ray>,
     samples: Pushed<u32>,
-    /// Followed by a number without a meaning.
+    /// Bands, and one number of padding.
     carried: Pushed<[f32; 4]>,
     occluded: Vec<bool>,
 }

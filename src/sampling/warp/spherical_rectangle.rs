@@ -9,8 +9,8 @@
 //! of the spherical polygon. They are the same up to quarter turns, which cost small angles their
 //! precision.
 //!
-//! The angles are added as products of complex numbers, in f64. Relative error of the uniform
-//! density: 2e-4 for solid angles from 2π down to 1 sr, 1e-5 below 1 sr, 3e-7 below 0.1 sr.
+//! The angles are added as products of complex numbers. Relative error of the uniform density in
+//! f64: 2e-4 for solid angles from 2π down to 1 sr, 1e-5 below 1 sr, 3e-7 below 0.1 sr.
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 

@@ -1,4 +1,4 @@
-//! [`Hit`].
+//! [`Hit`]: where a ray meets a surface first.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -20,6 +20,13 @@ impl Hit {
     /// What a ray gets that hits nothing.
     pub const MISS: Self =
         Self { t: f32::INFINITY, b: [0.0; 3], shape: u32::MAX, triangle: u32::MAX };
+
+    /// t and the barycentric coordinates.
+    #[inline(always)]
+    pub(super) fn t_and_b(&self) -> &[f32; 4] {
+        // The words of shape and triangle have no meaning as numbers, and are left out.
+        bytemuck::cast_ref::<Self, [f32; 6]>(self).first_chunk().expect("more than four words")
+    }
 
     /// Whether the ray hit something.
     #[inline]
