@@ -13,7 +13,7 @@ use crate::sampling::SampleId;
 
 /// How many samples go through the integrator together: enough for batches to pay, few enough for
 /// rays and hits to stay in the second-level cache.
-const WAVE: usize = 2048;
+const WAVE: usize = 1024;
 
 /// How many points estimate a reflectance that has no closed form.
 const RHO_POINTS: usize = 16;
