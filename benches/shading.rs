@@ -6,8 +6,8 @@
 //! - `shading/sampler/*`: one point of each sampler, by a call of its own and together with the pixel's others.
 //! - `shading/hit/*`: the chapter's estimator at a hit, through the traits and as
 //!   arithmetic written by hand.
-//! - `shading/render/*`: a whole picture of the dragon, a sample as the element, with the crate's kinds, and with
-//!   one of another crate in place of one of them.
+//! - `shading/render/*`: a whole picture of the dragon with the crate's kinds, and with one of another crate in place of
+//!   one of them, in turns; a sample is the element.
 //!
 //! All run over one fixed pool of hits.
 
@@ -16,6 +16,7 @@ use std::hint::black_box;
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Instant;
 
 use bumpalo::Bump;
 use criterion::measurement::WallTime;
@@ -274,6 +275,27 @@ impl Material for ForeignMaterial {
     }
 }
 
+/// A lobe as another crate writes it, and its material.
+#[derive(Clone, Copy)]
+struct ForeignLobe(Spectrum);
+
+impl BxDF for ForeignLobe {
+    fn flags(&self) -> BxdfFlags {
+        BxdfFlags::REFLECTION | BxdfFlags::DIFFUSE
+    }
+    fn f(&self, _wo: Vec3, _wi: Vec3) -> Spectrum {
+        self.0 * FRAC_1_PI
+    }
+}
+
+impl Material for ForeignLobe {
+    fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, arena: &'a Arena) -> Bsdf<'a> {
+        let mut bsdf = Bsdf::isotropic(si);
+        bsdf.add(arena.lobe(*self));
+        bsdf
+    }
+}
+
 /// A point light as another crate writes it.
 struct ForeignLight(PointLight);
 
@@ -289,42 +311,70 @@ impl Light for ForeignLight {
     }
 }
 
-fn renders(criterion: &mut Criterion) {
+/// Renders with the crate's kinds and with foreign ones in turns, since machines drift, and prints the medians: time, and
+/// its ratio to the time with the crate's kinds in the same round.
+fn renders(_: &mut Criterion) {
     const SIDE: u32 = 96;
+    const SPP: u32 = 64;
+    let wanted = |name: &str| match std::env::args().skip(1).find(|arg| !arg.starts_with('-')) {
+        Some(filter) => name.contains(&filter),
+        None => true,
+    };
+    if !wanted("shading/render") {
+        return;
+    }
+    let rounds = if std::env::args().any(|arg| arg == "--bench") { 25 } else { 1 };
     let dragon = read_obj(Path::new("assets/dragon.obj")).expect("a mesh of the project").mesh;
     let floor =
         TriangleMesh::parallelogram(Vec3::new(-6.0, 0.0, 6.0), Vec3::X * 12.0, Vec3::Z * -12.0);
     let lamp = PointLight::new(LIGHT, Spectrum::splat(900.0));
-    let closure = || MatteMaterial::new(|_: &SurfaceInteraction| RED);
-    let mut group = criterion.benchmark_group("shading/render");
     let camera = PerspectiveSettings {
         eye: Vec3::new(-3.0, 2.5, -3.0),
         look_at: Vec3::new(0.0, 0.5, 0.0),
         ..PerspectiveSettings::default()
     };
     let view = View::perspective(&camera, FilmSettings::new(SIDE, SIDE)).expect("a view");
-    let sampler = SamplerSettings { spp: 64, ..SamplerSettings::default() };
+    let sampler = SamplerSettings { spp: SPP, ..SamplerSettings::default() };
     let settings = RenderSettings::new(sampler, PathIntegrator::new(5));
     let options =
         RenderOptions { threads: NonZeroUsize::new(1), layers: false, ..RenderOptions::default() };
-    group.throughput(Throughput::Elements(u64::from(SIDE * SIDE) * 64)).sample_size(10);
-    let mut render_of = |name: &str, material: Arc<dyn Material>, light: Arc<dyn Light>| {
-        let scene = Scene::builder()
+    let scene = |material: Arc<dyn Material>, light: Arc<dyn Light>| {
+        Scene::builder()
             .material("red", material)
             .shape("dragon", dragon.clone(), "red")
             .shape("floor", floor.clone(), "red")
             .light(light)
             .build()
-            .expect("the scene is sound");
-        group.bench_function(name, |bencher| {
-            bencher.iter(|| render(&scene, &view, &settings, &options).expect("enough memory"));
-        });
+            .expect("the scene is sound")
     };
     let matte = || Arc::new(MatteMaterial::new(RED));
-    render_of("the crate's kinds", matte(), Arc::new(lamp));
-    render_of("foreign material", Arc::new(ForeignMaterial(RED)), Arc::new(lamp));
-    render_of("closure as texture", Arc::new(closure()), Arc::new(lamp));
-    render_of("foreign light", matte(), Arc::new(ForeignLight(lamp)));
+    let closure = MatteMaterial::new(|_: &SurfaceInteraction| RED);
+    let scenes = [
+        ("the crate's kinds", scene(matte(), Arc::new(lamp))),
+        ("foreign material", scene(Arc::new(ForeignMaterial(RED)), Arc::new(lamp))),
+        ("foreign lobe", scene(Arc::new(ForeignLobe(RED)), Arc::new(lamp))),
+        ("closure as texture", scene(Arc::new(closure), Arc::new(lamp))),
+        ("foreign light", scene(matte(), Arc::new(ForeignLight(lamp)))),
+    ];
+    let mut times: [Vec<f64>; 5] = Default::default();
+    for round in 0..rounds {
+        for i in 0..scenes.len() {
+            // Each scene comes first as often as the others.
+            let i = (i + round) % scenes.len();
+            let start = Instant::now();
+            black_box(render(&scenes[i].1, &view, &settings, &options).expect("enough memory"));
+            times[i].push(start.elapsed().as_secs_f64());
+        }
+    }
+    let median = |mut of: Vec<f64>| {
+        of.sort_by(f64::total_cmp);
+        of[of.len() / 2]
+    };
+    for ((name, _), time) in scenes.iter().zip(&times) {
+        let ratio = median(time.iter().zip(&times[0]).map(|(time, first)| time / first).collect());
+        let ns = median(time.clone()) * 1e9 / f64::from(SIDE * SIDE * SPP);
+        println!("shading/render/{name:20} {ns:6.1} ns a sample, ratio {ratio:.3}");
+    }
 }
 
 criterion_group!(benches, lobes, storage, textures, samplers, hits, renders);
