@@ -216,7 +216,7 @@ fn samplers(criterion: &mut Criterion) {
         .collect();
     let mut group = criterion.benchmark_group("shading/sampler");
     group.throughput(Throughput::Elements(ids.len() as u64));
-    let mut points = Vec::new();
+    let mut points = vec![Vec2::ZERO; ids.len()];
     for (name, sampler) in samplers {
         group.bench_function(format!("get_2d {name}"), |bencher| {
             bencher.iter(|| ids.iter().map(|&id| black_box(sampler).get_2d(id, 3)).sum::<Vec2>());

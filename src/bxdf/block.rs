@@ -183,18 +183,21 @@ impl<'a> BsdfBlock<'a> {
         });
     }
 
-    /// [`Bsdf::sample_f`] at each hit. `uc` is asked for that number of a hit if it is used.
+    /// [`Bsdf::sample_f`] at each hit. `uc` is asked for that number of each hit, if any uses it.
     #[inline]
     pub(crate) fn sample_f(
         &mut self,
         hits: &HitBlock,
-        uc: impl Fn(usize) -> f32,
+        uc: impl FnOnce(&mut [f32]),
         u: &[Vec2; ROW],
         samples: &mut BsdfSamples,
     ) {
         let Some(model) = self.model else {
-            for (i, (bsdf, &u)) in self.each.iter().zip(u).enumerate() {
-                let uc = if bsdf.uses_uc() { uc(i) } else { f32::NAN };
+            let mut of_each = [f32::NAN; ROW];
+            if self.each.iter().any(Bsdf::uses_uc) {
+                uc(&mut of_each[..self.len]);
+            }
+            for (i, (bsdf, (&uc, &u))) in self.each.iter().zip(of_each.iter().zip(u)).enumerate() {
                 samples.pdf.set(i, 0.0);
                 if let Some(sample) = bsdf.sample_f(hits.wo(i), uc, u, BxdfFlags::all()) {
                     samples.f.set(i, sample.f.to_array());

@@ -7,6 +7,8 @@
 
 use std::sync::Arc;
 
+use glam::Vec2;
+
 use super::traits::{Estimator, Integrator, Read};
 use super::wave::{
     PathList, PathRules, Paths, PathsAt, Stage, Vertices, Wave, dimension, for_each_escaped,
@@ -169,17 +171,22 @@ impl PathTracer<'_> {
         }
         values.ids.clear();
         values.ids.extend(by_hit.active.iter().map(|&i| ids[samples[i as usize] as usize]));
-        let first = dimension::of_depth(depth);
+        // Previous contents are overwritten.
+        let (first, count) = (dimension::of_depth(depth), values.ids.len());
         if rules.samples_direction(depth) {
+            values.direction.resize(count, Vec2::ZERO);
             sampler.fill_2d(&values.ids, first + dimension::DIRECTION, &mut values.direction);
         }
         if rules.needs_light_u {
+            values.light.resize(count, Vec2::ZERO);
             sampler.fill_2d(&values.ids, first + dimension::LIGHT, &mut values.light);
         }
         if rules.lights.draws() {
+            values.choice.resize(count, 0.0);
             sampler.fill_1d(&values.ids, first + dimension::CHOICE, &mut values.choice);
         }
         if rules.uses_roulette(depth) {
+            values.roulette.resize(count, 0.0);
             sampler.fill_1d(&values.ids, first + dimension::ROULETTE, &mut values.roulette);
         }
     }

@@ -28,13 +28,13 @@ pub struct SampleId {
 /// # Examples
 /// Sixteen points of a pixel in dimension 0, and one number for each in dimension 1:
 /// ```
-/// use lobe::glam::UVec2;
+/// use lobe::glam::{UVec2, Vec2};
 /// use lobe::sampling::{SampleId, Sampler, SobolSampler};
 ///
 /// let sampler = SobolSampler::new(7);
 /// let pixel = UVec2::new(3, 5);
 /// let ids: Vec<_> = (0..16).map(|index| SampleId { pixel, set: 0, index }).collect();
-/// let (mut film, mut choice) = (Vec::new(), Vec::new());
+/// let (mut film, mut choice) = ([Vec2::ZERO; 16], [0.0; 16]);
 /// sampler.fill_2d(&ids, 0, &mut film);
 /// sampler.fill_1d(&ids, 1, &mut choice);
 ///
@@ -77,7 +77,7 @@ pub struct SampleId {
 ///     }
 /// }
 ///
-/// let mut points = Vec::new();
+/// let mut points = [Vec2::ZERO; 2];
 /// let ids = [0, 1].map(|index| SampleId { pixel: UVec2::ZERO, set: 0, index });
 /// R2.fill_2d(&ids, 0, &mut points);
 /// assert_eq!(points[1], R2.get_2d(ids[1], 0));
@@ -93,15 +93,25 @@ pub trait Sampler: Send + Sync {
     /// The point of the sample in `dimension`, in `[0, 1)²`.
     fn get_2d(&self, id: SampleId, dimension: u32) -> Vec2;
 
-    /// [`get_1d`](Sampler::get_1d) of each id, written over the contents of `values`.
-    fn fill_1d(&self, ids: &[SampleId], dimension: u32, values: &mut Vec<f32>) {
-        values.clear();
-        values.extend(ids.iter().map(|&id| self.get_1d(id, dimension)));
+    /// [`get_1d`](Sampler::get_1d) of each id.
+    ///
+    /// # Panics
+    /// If there are not as many `values` as `ids`.
+    fn fill_1d(&self, ids: &[SampleId], dimension: u32, values: &mut [f32]) {
+        assert_eq!(ids.len(), values.len(), "a value for each sample");
+        for (&id, value) in ids.iter().zip(values) {
+            *value = self.get_1d(id, dimension);
+        }
     }
 
-    /// [`get_2d`](Sampler::get_2d) of each id, written over the contents of `points`.
-    fn fill_2d(&self, ids: &[SampleId], dimension: u32, points: &mut Vec<Vec2>) {
-        points.clear();
-        points.extend(ids.iter().map(|&id| self.get_2d(id, dimension)));
+    /// [`get_2d`](Sampler::get_2d) of each id.
+    ///
+    /// # Panics
+    /// If there are not as many `points` as `ids`.
+    fn fill_2d(&self, ids: &[SampleId], dimension: u32, points: &mut [Vec2]) {
+        assert_eq!(ids.len(), points.len(), "a point for each sample");
+        for (&id, point) in ids.iter().zip(points) {
+            *point = self.get_2d(id, dimension);
+        }
     }
 }

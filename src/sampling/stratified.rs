@@ -105,11 +105,11 @@ impl Sampler for StratifiedSampler {
         self.get(id, dimension).into()
     }
 
-    fn fill_1d(&self, ids: &[SampleId], dimension: u32, values: &mut Vec<f32>) {
+    fn fill_1d(&self, ids: &[SampleId], dimension: u32, values: &mut [f32]) {
         self.fill_values(ids, dimension, values);
     }
 
-    fn fill_2d(&self, ids: &[SampleId], dimension: u32, points: &mut Vec<Vec2>) {
+    fn fill_2d(&self, ids: &[SampleId], dimension: u32, points: &mut [Vec2]) {
         self.fill_points(ids, dimension, points);
     }
 }

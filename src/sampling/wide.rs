@@ -24,17 +24,14 @@ pub trait WideSampler {
 
     /// [`Sampler::fill_1d`](super::Sampler::fill_1d).
     #[inline]
-    fn fill_values(&self, ids: &[SampleId], dimension: u32, values: &mut Vec<f32>) {
-        // The previous contents are overwritten.
-        values.resize(ids.len(), 0.0);
+    fn fill_values(&self, ids: &[SampleId], dimension: u32, values: &mut [f32]) {
         let values = bytemuck::cast_slice_mut::<_, [f32; 1]>(values);
         self.instruction_set().run_block(Fill { sampler: self, ids, dimension, values });
     }
 
     /// [`Sampler::fill_2d`](super::Sampler::fill_2d).
     #[inline]
-    fn fill_points(&self, ids: &[SampleId], dimension: u32, points: &mut Vec<Vec2>) {
-        points.resize(ids.len(), Vec2::ZERO);
+    fn fill_points(&self, ids: &[SampleId], dimension: u32, points: &mut [Vec2]) {
         let values = bytemuck::cast_slice_mut::<_, [f32; 2]>(points);
         self.instruction_set().run_block(Fill { sampler: self, ids, dimension, values });
     }
@@ -53,6 +50,7 @@ impl<S: WideSampler + ?Sized, const D: usize> BlockKernel for Fill<'_, S, D> {
 
     #[inline(always)]
     fn run<F: Block>(self) {
+        assert_eq!(self.ids.len(), self.values.len(), "a value for each sample");
         for (ids, values) in self.ids.chunks(WIDTH).zip(self.values.chunks_mut(WIDTH)) {
             let mut padded;
             let ids = match ids.first_chunk() {

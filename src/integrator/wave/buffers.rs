@@ -93,12 +93,11 @@ impl<'a> Wave<'a> {
     /// Generates the camera rays of the samples in `ids`, and intersects them with the scene.
     pub fn begin(&mut self, scene: &Scene, view: &View, sampler: &dyn Sampler) {
         let Self { ids, film, lens, rays, hits, radiance, counters, .. } = self;
+        film.resize(ids.len(), Vec2::ZERO);
         sampler.fill_2d(ids, dimension::FILM, film);
+        lens.resize(ids.len(), Vec2::ZERO);
         if view.camera().has_lens() {
             sampler.fill_2d(ids, dimension::LENS, lens);
-        } else {
-            lens.clear();
-            lens.resize(ids.len(), Vec2::ZERO);
         }
         view.generate_rays(scene.instruction_set(), ids, film, lens, rays);
         radiance.clear();

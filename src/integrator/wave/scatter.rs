@@ -1,5 +1,6 @@
 //! [`Vertices`]: a block of path vertices, and the stages that turn its hits into shadow rays and next rays.
 
+use arrayvec::ArrayVec;
 use bytemuck::Zeroable;
 use glam::Vec2;
 
@@ -12,7 +13,7 @@ use crate::geometry::Xyz;
 use crate::geometry::float::ONE_MINUS_EPSILON;
 use crate::interaction::HitBlock;
 use crate::light::{LightSamples, Receivers};
-use crate::sampling::Sampler;
+use crate::sampling::{SampleId, Sampler};
 use crate::scene::Scene;
 use crate::simd::{
     Block, BlockKernel, LaneMask, MAX_LANES, ROW, Row, RowMask, Rows, groups, indices, lanes_within,
@@ -124,14 +125,14 @@ impl<'a> Vertices<'a> {
     /// The sample values for points on the light of a slot.
     fn draw_light_points(&mut self, slot: usize) {
         let Stage { sampler, values, .. } = self.stage;
-        for (u, &vertex) in self.light_u.iter_mut().zip(&self.vertices[..self.len]) {
-            *u = match slot {
-                0 => values.light[vertex as usize],
-                _ => {
-                    let dimension = dimension::MORE_LIGHTS + slot as u32 - 1;
-                    sampler.get_2d(values.ids[vertex as usize], dimension)
-                }
-            };
+        let (of_block, light_u) = (&self.vertices[..self.len], &mut self.light_u[..self.len]);
+        if slot == 0 {
+            for (u, &vertex) in light_u.iter_mut().zip(of_block) {
+                *u = values.light[vertex as usize];
+            }
+        } else {
+            let dimension = dimension::MORE_LIGHTS + slot as u32 - 1;
+            sampler.fill_2d(&ids_of(values, of_block), dimension, light_u);
         }
     }
 
@@ -173,8 +174,9 @@ impl<'a> Vertices<'a> {
         for (u, &vertex) in self.direction_u.iter_mut().zip(of_block) {
             *u = values.direction[vertex as usize];
         }
-        let uc =
-            |i: usize| sampler.get_1d(values.ids[of_block[i] as usize], dimension::event(depth));
+        let uc = |uc: &mut [f32]| {
+            sampler.fill_1d(&ids_of(values, of_block), dimension::event(depth), uc);
+        };
         self.bsdfs.sample_f(&self.hits, uc, &self.direction_u, &mut self.directions);
         let mut roulette = None;
         if rules.uses_roulette(depth) {
@@ -194,6 +196,11 @@ impl<'a> Vertices<'a> {
             next,
         });
     }
+}
+
+/// The samples of vertices of a block.
+fn ids_of(values: &Values, vertices: &[u32]) -> ArrayVec<SampleId, ROW> {
+    vertices.iter().map(|&vertex| values.ids[vertex as usize]).collect()
 }
 
 /// Adds the shadow rays of light samples.

@@ -51,7 +51,7 @@ fn fills_equal_gets() {
         &|i| of(3 + i / 70, i / 70, i % 70),
         &|i| of(3, i / 3, (i * 37) << 20),
     ];
-    let (mut values, mut points) = (vec![0.5; 3], vec![Vec2::ONE; 1000]);
+    let (mut values, mut points) = ([0.5; 150], [Vec2::ONE; 150]);
     let sets = InstructionSet::available();
     for (spp, size) in [(16, UVec2::ONE), (100, UVec2::new(100, 30))] {
         let samplers = sets.iter().flat_map(|&set| {
@@ -64,10 +64,11 @@ fn fills_equal_gets() {
                     let one: Vec<_> = ids.iter().map(|&id| sampler.get_1d(id, dimension)).collect();
                     let two: Vec<_> = ids.iter().map(|&id| sampler.get_2d(id, dimension)).collect();
                     for count in (0..=100).chain([127, 128, 129, 150]) {
-                        sampler.fill_1d(&ids[..count], dimension, &mut values);
-                        sampler.fill_2d(&ids[..count], dimension, &mut points);
+                        let (values, points) = (&mut values[..count], &mut points[..count]);
+                        sampler.fill_1d(&ids[..count], dimension, values);
+                        sampler.fill_2d(&ids[..count], dimension, points);
                         assert!(
-                            values == one[..count] && points == two[..count],
+                            *values == one[..count] && *points == two[..count],
                             "{name} with {set}: {count} of pool {p} in dimension {dimension}",
                         );
                     }

@@ -57,7 +57,7 @@ fn first_ones(most: u64) -> u64 {
         &SobolSampler::new(1),
         &BlueNoiseSampler::new(UVec2::splat(1 << 10), 1024, 1),
     ];
-    let (mut ids, mut points) = (Vec::new(), Vec::new());
+    let (mut ids, mut points) = (Vec::new(), [Vec2::ZERO; 1000]);
     let mut taken = 0;
     for turn in 0.. {
         // Mostly the independent sampler, which is the fastest and the only one whose numbers are not stratified.
