@@ -309,8 +309,11 @@ impl<'a> Bsdf<'a> {
     /// Density of a pair of local directions, averaged over the lobes by their selection probabilities.
     #[inline]
     fn mean_pdf(&self, shares: &Shares, [wo, wi]: [Vec3; 2], flags: BxdfFlags) -> f32 {
-        let pdfs = self.matching(flags).map(|(lobe, _)| lobe.pdf(wo, wi));
-        pdfs.enumerate().map(|(i, pdf)| shares.of(i) * pdf).sum()
+        let mut mean = 0.0;
+        for (i, (lobe, _)) in self.matching(flags).enumerate() {
+            mean += shares.of(i) * lobe.pdf(wo, wi);
+        }
+        mean
     }
 
     /// Selection probability of each lobe that matches `flags`, for a local direction.
