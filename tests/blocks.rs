@@ -464,9 +464,9 @@ fn blocks_hold_the_geometry_of_single_hits() {
         let a = Vec3::new(-4.0, -1.5 + 0.05 * i as f32, 1.0);
         let edges = [Vec3::new(8.013, 0.0437, 0.517), Vec3::new(4.127, 0.0391, 0.263)];
         needles.positions.extend([a, a + edges[0], a + edges[1]]);
-        needles
-            .normals
-            .extend([Vec3::new(0.1, 0.2, -0.9), Vec3::NEG_Z, Vec3::X].map(Vec3::normalize));
+        // Every other one is flat.
+        let normals = [Vec3::new(0.1, 0.2, -0.9), Vec3::NEG_Z, Vec3::X];
+        needles.normals.extend(normals.map(|n| n.normalize() * (i % 2) as f32));
         needles.indices.push([3 * i, 3 * i + 1, 3 * i + 2]);
     }
     let meshes = vec![ball, smooth, needles];

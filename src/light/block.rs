@@ -276,13 +276,21 @@ mod tests {
         let l = Spectrum::new(3.0, 2.0, 1.0);
         let area = |mesh, two_sided| AreaLight::new(mesh, l, two_sided).unwrap();
         let position = Vec3::new(0.5, 1.0, -0.5);
-        let lights: [&dyn Light; 6] = [
+        // So small and so far that squares of distances are not precise.
+        let scaled = |scale: f32| {
+            let mut mesh = lamp.clone();
+            mesh.positions.iter_mut().for_each(|p| *p *= scale);
+            mesh
+        };
+        let lights: [&dyn Light; 8] = [
             &PointLight::new(position, l),
             &SkyLight::new(l),
             &area(&lamp, false),
             &area(&lamp, true),
             &area(&bent, false),
             &area(&bent, true),
+            &area(&scaled(1e-21), true),
+            &area(&scaled(1e17), true),
         ];
         let mut next = random_numbers();
         let mut missing = 0;
@@ -319,6 +327,9 @@ mod tests {
                             "trial {trial}, {instruction_set}, light {index}"
                         );
                         missing += usize::from(found.is_none());
+                        if let Some(LightSample { wi, .. }) = found {
+                            assert!(wi.is_normalized(), "trial {trial}, light {index}: {wi}");
+                        }
                     }
                 }
             }
