@@ -181,7 +181,7 @@ impl Material for Checks {
             assert_eq!(all(&si), all(&one), "hit {i} on triangle {triangle} of shape {shape}");
             self.seen[shape as usize].fetch_add(1, Ordering::Relaxed);
         }
-        bsdfs.fill(hits, |si| self.compute_scattering(si, arena));
+        bsdfs.fill(hits, |_, si| self.compute_scattering(si, arena));
     }
 }
 

@@ -58,19 +58,22 @@ impl<'a> BsdfBlock<'a> {
         self.len
     }
 
-    /// Replaces the lobes by those that `bsdf_at` returns for each hit, and the shading normals of the hits by those of their
-    /// frames. `bsdf_at` may replace the shading geometry of a hit, and may be called twice for it.
+    /// Takes the lobes that `bsdf_at` returns for each hit and its index, and replaces the shading normals of the hits by those
+    /// of their frames. `bsdf_at` may replace the shading geometry of a hit, and may be called twice for it.
+    ///
+    /// # Panics
+    /// If the block has lobes already: their frames would be taken for the surface's.
     #[inline]
     pub fn fill(
         &mut self,
         hits: &mut HitBlock,
-        bsdf_at: impl Fn(&mut SurfaceInteraction) -> Bsdf<'a>,
+        bsdf_at: impl Fn(usize, &mut SurfaceInteraction) -> Bsdf<'a>,
     ) {
-        self.clear();
+        assert_eq!(self.len, 0, "a material fills a block of lobes once");
         self.len = hits.len();
         let mut normals = Rows::splat(0.0);
         let mut lobe_at = |i: usize| {
-            let bsdf = bsdf_at(&mut hits.get(i));
+            let bsdf = bsdf_at(i, &mut hits.get(i));
             normals.set(i, bsdf.frame().n.to_array());
             bsdf
         };

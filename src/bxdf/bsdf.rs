@@ -98,8 +98,8 @@ impl<'a> Bsdf<'a> {
     }
 
     /// Adds a lobe: one of this crate's by value, any other by reference. A material lends a lobe that it holds
-    /// (`bsdf.add(&self.lobe as &dyn BxDF)`), or puts one that it makes for this hit into the arena that it is given
-    /// (`bsdf.add(arena.lobe(Mine { r }))`).
+    /// (`bsdf.add(&self.lobe as &dyn BxDF)`), or puts one that it makes for this hit, and which is `Copy`, into the
+    /// arena that it is given (`bsdf.add(arena.lobe(Mine { r }))`).
     ///
     /// Returns false if all [`MAX_LOBES`] are in use: the lobe is then left out and counted as
     /// rejected.

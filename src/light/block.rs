@@ -100,6 +100,17 @@ impl LightSamples {
         self.t_max.set(i, if from.is_some() { ONE_MINUS_EPSILON } else { f32::INFINITY });
     }
 
+    /// The sample for the point with this index, if there is one.
+    ///
+    /// # Panics
+    /// If the index is [`BLOCK`](crate::interaction::BLOCK) or more.
+    pub fn get(&self, i: usize) -> Option<LightSample> {
+        assert!(i < ROW, "sample {i} of a block");
+        let (li, wi, pdf) = (self.li.get(i).into(), self.wi.get(i).into(), self.pdf.get(i));
+        let from = (self.t_max.get(i) < f32::INFINITY).then(|| self.from.get(i).into());
+        (pdf != 0.0).then_some(LightSample { li, wi, pdf, from })
+    }
+
     /// Copies a sample from another block, drawn with a probability besides its density.
     #[inline]
     pub(crate) fn copy(&mut self, to: usize, other: &Self, from: usize, probability: f32) {
@@ -241,6 +252,15 @@ impl Emitted {
         self.pdf.set(i, pdf);
     }
 
+    /// Radiance and density for the ray with this index.
+    ///
+    /// # Panics
+    /// If the index is [`BLOCK`](crate::interaction::BLOCK) or more.
+    pub fn get(&self, i: usize) -> (Spectrum, f32) {
+        assert!(i < ROW, "ray {i} of a block");
+        (self.le.get(i).into(), self.pdf.get(i))
+    }
+
     /// Sets the same radiance and density for all rays.
     pub(super) fn fill(&mut self, le: Spectrum, pdf: f32) {
         self.le = Rows::of(le.to_array());
@@ -313,14 +333,7 @@ mod tests {
                     let mut samples = LightSamples::zeroed();
                     light.sample_li_block(&receivers, &mut samples);
                     for (i, &u) in u.iter().enumerate().take(len) {
-                        let pdf = samples.pdf.get(i);
-                        let is_near = samples.t_max.get(i) < f32::INFINITY;
-                        let found = (pdf > 0.0).then(|| LightSample {
-                            li: samples.li.get(i).into(),
-                            wi: samples.wi.get(i).into(),
-                            pdf,
-                            from: is_near.then(|| samples.from.get(i).into()),
-                        });
+                        let found = samples.get(i);
                         let expected = light.sample_li(receivers.p(i), u);
                         assert_eq!(
                             found, expected,

@@ -67,7 +67,7 @@ impl Material for MatteMaterial {
         bsdfs: &mut BsdfBlock<'a>,
     ) {
         if self.bump.is_some() {
-            return bsdfs.fill(hits, |si| self.compute_scattering(si, arena));
+            return bsdfs.fill(hits, |_, si| self.compute_scattering(si, arena));
         }
         // A black lobe stands for no lobe. A sigma of 0 gives the bits of Lambertian reflection.
         let lambertian = |kd| LambertianReflection::new(reflectance(kd).unwrap_or_default());
@@ -80,7 +80,8 @@ impl Material for MatteMaterial {
             (Some(kd), Some(0.0)) => bsdfs.fill_constant(hits, lambertian(kd)),
             (Some(kd), Some(sigma)) => bsdfs.fill_constant(hits, rough(kd, sigma)),
             _ => {
-                let (mut kd, mut sigma) = ([Spectrum::BLACK; BLOCK], [0.0; BLOCK]);
+                // What a texture leaves out shows.
+                let (mut kd, mut sigma) = ([Spectrum::splat(f32::NAN); BLOCK], [f32::NAN; BLOCK]);
                 self.kd.evaluate_block(hits, &mut kd[..hits.len()]);
                 if constant_sigma == Some(0.0) {
                     return bsdfs.fill_alike(hits, |i| lambertian(kd[i]));

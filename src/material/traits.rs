@@ -40,17 +40,53 @@ pub trait Material: Send + Sync {
 
     /// [Fills](BsdfBlock::fill) `bsdfs` once, with the lobes at a block of hits, as
     /// [`compute_scattering`](Self::compute_scattering) returns them for each. The provided method is compiled for each material, so
-    /// that a block costs one call through a pointer. Materials of the crate that are faster for several hits at a time override
-    /// this, and so may one that forwards to another.
+    /// that a block costs one call through a pointer. A material that is faster for several hits at a time overrides this, with
+    /// bit-identical results:
     ///
+    /// ```
+    /// use lobe::Spectrum;
+    /// use lobe::bxdf::{Arena, Bsdf, BsdfBlock, LambertianReflection};
+    /// use lobe::interaction::{BLOCK, HitBlock, SurfaceInteraction};
+    /// use lobe::material::Material;
+    /// use lobe::texture::Texture;
+    ///
+    /// /// Asks its texture for all hits of a block together.
+    /// struct Textured<T>(T);
+    ///
+    /// fn lambertian<'a>(si: &SurfaceInteraction, r: Spectrum) -> Bsdf<'a> {
+    ///     let mut bsdf = Bsdf::isotropic(si);
+    ///     bsdf.add(LambertianReflection::new(r));
+    ///     bsdf
+    /// }
+    ///
+    /// impl<T: Texture<Spectrum>> Material for Textured<T> {
+    ///     fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, _: &'a Arena) -> Bsdf<'a> {
+    ///         lambertian(si, self.0.evaluate(si))
+    ///     }
+    ///
+    ///     fn scatter_block<'a>(
+    ///         &'a self,
+    ///         hits: &mut HitBlock,
+    ///         _: &'a Arena,
+    ///         bsdfs: &mut BsdfBlock<'a>,
+    ///     ) {
+    ///         let mut r = [Spectrum::BLACK; BLOCK];
+    ///         self.0.evaluate_block(hits, &mut r[..hits.len()]);
+    ///         bsdfs.fill(hits, |i, si| lambertian(si, r[i]));
+    ///     }
+    /// }
+    /// ```
     /// A single lobe of one of the crate's models is the fastest, in a frame with arbitrary tangents ([`Bsdf::isotropic`]).
+    ///
+    /// # Panics
+    /// Renders panic if the block is left without lobes.
     fn scatter_block<'a>(
         &'a self,
         hits: &mut HitBlock,
         arena: &'a Arena,
         bsdfs: &mut BsdfBlock<'a>,
     ) {
-        bsdfs.fill(hits, |si| self.compute_scattering(si, arena));
+        bsdfs.fill(hits, |_, si| self.compute_scattering(si, arena));
     }
 
     /// Wraps the material for a scene, without a second `Arc` around one that is shared.

@@ -93,7 +93,7 @@ pub trait Sampler: Send + Sync {
     /// The point of the sample in `dimension`, in `[0, 1)²`.
     fn get_2d(&self, id: SampleId, dimension: u32) -> Vec2;
 
-    /// [`get_1d`](Sampler::get_1d) of each id.
+    /// [`get_1d`](Sampler::get_1d) of each id, of which there are any number in any order. All values have to be set.
     ///
     /// # Panics
     /// If there are not as many `values` as `ids`.
@@ -104,7 +104,7 @@ pub trait Sampler: Send + Sync {
         }
     }
 
-    /// [`get_2d`](Sampler::get_2d) of each id.
+    /// [`get_2d`](Sampler::get_2d) of each id, of which there are any number in any order. All points have to be set.
     ///
     /// # Panics
     /// If there are not as many `points` as `ids`.
