@@ -320,14 +320,17 @@ fn missing_keys() {
     all_refused(&[
         (
             "[material.\"\"]\nkd = [0, 0, 0]",
-            "s.toml:1:1: [material.\"\"] lacks `type`, expected \"matte\"",
+            "s.toml:1:1: [material.\"\"] lacks `type`, expected \"matte\", \"mirror\" or \"glass\"",
         ),
         ("[texture.t]", "s.toml:1:1: [texture.t] lacks `type`, expected \"constant\""),
         (
             "\n[texture.t]\ntype = \"constant\"",
             "s.toml:2:1: [texture.t] lacks `value`, expected a number or [red, green, blue], all finite",
         ),
-        ("[material.m]", "s.toml:1:1: [material.m] lacks `type`, expected \"matte\""),
+        (
+            "[material.m]",
+            "s.toml:1:1: [material.m] lacks `type`, expected \"matte\", \"mirror\" or \"glass\"",
+        ),
         (
             "[light.l]",
             "s.toml:1:1: [light.l] lacks `type`, expected \"point\", \"distant\" or \"sky\"",
@@ -560,7 +563,7 @@ fn names_are_escaped_and_shortened() {
         (
             &format!("[material.{long}]\ntype = \"{long}\""),
             &format!(
-                "s.toml:2:8: `material.{part}.type` is \"{}…{}\", expected \"matte\"",
+                "s.toml:2:8: `material.{part}.type` is \"{}…{}\", expected \"matte\", \"mirror\" or \"glass\"",
                 "k".repeat(29),
                 "k".repeat(28)
             ),

@@ -154,6 +154,11 @@ impl<'a> BsdfBlock<'a> {
         }
     }
 
+    /// Whether all lobes are specular: light samples, which are given directions, find nothing.
+    pub(crate) fn is_specular(&self) -> bool {
+        self.model.is_none() && self.each.iter().all(Bsdf::is_specular)
+    }
+
     /// [`Bsdf::f_and_pdf`] of all lobes, for the world direction `wi` of each hit where `asked` is not 0. `pdf` is valid only
     /// where `needs_pdf` is above 0 too.
     #[inline]

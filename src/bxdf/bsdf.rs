@@ -132,6 +132,13 @@ impl<'a> Bsdf<'a> {
         self.rejected.get()
     }
 
+    /// Whether all lobes are specular: light samples, which are given directions, find nothing.
+    #[inline]
+    pub(super) fn is_specular(&self) -> bool {
+        let spread = BxdfFlags::DIFFUSE | BxdfFlags::GLOSSY;
+        self.lobes.iter().all(|(_, kind)| !kind.intersects(spread))
+    }
+
     /// Number of lobes whose flags are all contained in `flags`.
     #[inline]
     pub fn num_components(&self, flags: BxdfFlags) -> usize {

@@ -5,21 +5,21 @@ use glam::{Vec2, Vec3};
 use super::{BxDF, BxdfFlags, BxdfSample, WideBxdf};
 use crate::spectrum::Spectrum;
 
-/// Defines [`Lobe`] from the list of this crate's models.
+/// Defines [`Lobe`] from the lists of this crate's models: those that are evaluated for several hits at a time, and others.
 macro_rules! lobes {
-    ($($model:ident),* $(,)?) => {
-        /// A model of this crate.
+    ([$($wide:ident),* $(,)?], [$($single:ident),* $(,)?]) => {
+        /// A model of this crate that is evaluated for several hits at a time.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Model {
-            $($model,)*
+            $($wide,)*
         }
 
         /// Runs `$call` with `$type` as the type of a model.
         macro_rules! of_model {
             ($which:expr, $type:ident => $call:expr) => {
                 match $which {
-                    $($crate::bxdf::lobe::Model::$model => {
-                        type $type = $crate::bxdf::$model;
+                    $($crate::bxdf::lobe::Model::$wide => {
+                        type $type = $crate::bxdf::$wide;
                         $call
                     })*
                 }
@@ -28,16 +28,23 @@ macro_rules! lobes {
         pub(super) use of_model;
 
         impl Lobe<'_> {
-            /// The model, if it is one of this crate, and the numbers of the lobe, followed by zeros.
+            /// The model, if it is evaluated for several hits at a time, and the numbers of the lobe, followed by zeros.
             #[inline(always)]
             pub(super) fn numbers(&self) -> Option<(Model, [f32; MOST_NUMBERS])> {
                 match self {
-                    $(Self::$model(lobe) => Some((Model::$model, padded(lobe.numbers()))),)*
-                    Self::Custom(_) => None,
+                    $(Self::$wide(lobe) => Some((Model::$wide, padded(lobe.numbers()))),)*
+                    _ => None,
                 }
             }
         }
 
+        lobe_of!($($wide,)* $($single,)*);
+    };
+}
+
+/// Defines [`Lobe`] from the list of this crate's models.
+macro_rules! lobe_of {
+    ($($model:ident),* $(,)?) => {
         /// One lobe: a model of this crate, stored in place, or a reference to any other [`BxDF`].
         ///
         /// Models of this crate are dispatched by an inlined branch, others by a virtual call.
@@ -74,7 +81,10 @@ macro_rules! lobes {
     };
 }
 
-lobes!(LambertianReflection, OrenNayar);
+lobes!(
+    [LambertianReflection, OrenNayar],
+    [SpecularReflection, SpecularTransmission, FresnelSpecular]
+);
 
 /// Most numbers of a lobe.
 pub(super) const MOST_NUMBERS: usize = 5;

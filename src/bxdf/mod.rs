@@ -6,10 +6,14 @@
 mod arena;
 mod block;
 mod bsdf;
+pub mod fresnel;
+mod fresnel_specular;
 mod lambertian;
 mod lobe;
 mod oren_nayar;
 mod scaled;
+mod specular_reflection;
+mod specular_transmission;
 mod traits;
 mod wide;
 
@@ -17,9 +21,12 @@ pub use arena::Arena;
 pub use block::BsdfBlock;
 pub(crate) use block::BsdfSamples;
 pub use bsdf::{Bsdf, MAX_LOBES};
+pub use fresnel_specular::FresnelSpecular;
 pub use lambertian::LambertianReflection;
 pub use lobe::Lobe;
 pub use oren_nayar::OrenNayar;
 pub use scaled::ScaledBxDF;
+pub use specular_reflection::SpecularReflection;
+pub use specular_transmission::SpecularTransmission;
 pub use traits::{BxDF, BxdfFlags, BxdfSample};
 use wide::{WideBxdf, cosine_pdf, cosine_sample};

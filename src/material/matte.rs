@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::reflectance::reflectance;
 use super::{Material, Read, bump};
 use crate::bxdf::{Arena, Bsdf, BsdfBlock, LambertianReflection, OrenNayar};
 use crate::interaction::{BLOCK, HitBlock, SurfaceInteraction};
@@ -93,14 +94,6 @@ impl Material for MatteMaterial {
             }
         }
     }
-}
-
-/// `kd` clamped to `[0, 1]` per band; `None` if nothing is reflected. Values that are not finite are kept: the Bsdf
-/// counts them.
-#[inline]
-fn reflectance(kd: Spectrum) -> Option<Spectrum> {
-    let r = if kd.is_finite() { kd.clamp(0.0, 1.0) } else { kd };
-    (!r.is_black()).then_some(r)
 }
 
 /// 0.5 by default, as in PBRT.

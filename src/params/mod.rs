@@ -60,6 +60,7 @@ mod tree;
 pub use choice::Choice;
 pub use error::{Fault, Problem};
 pub use hint::hint;
+pub(crate) use hint::one_of;
 pub use key::{AnyKey, Key};
 pub use kind::{AnySection, Kind, Section};
 pub use limits::Limits;

@@ -1,14 +1,16 @@
 //! Mirror and glass of another crate in a white furnace: a body that absorbs nothing, under a sky of radiance 1,
 //! cannot be seen. Truth: 1 in every pixel.
 
+use std::sync::Arc;
+
 use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, BxdfSample, LambertianReflection};
 use lobe::geometry::{Frame, reflect, refract};
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::image::Picture;
 use lobe::integrator::PathIntegrator;
 use lobe::interaction::SurfaceInteraction;
-use lobe::light::{LightStrategy, PointLight, SkyLight};
-use lobe::material::Material;
+use lobe::light::{Light, LightHit, LightSample, LightStrategy, PointLight, SkyLight};
+use lobe::material::{GlassMaterial, Material, MirrorMaterial};
 use lobe::render::{RenderSettings, SamplerSettings, Sampling, render_with};
 use lobe::sampling::SamplerKind;
 use lobe::{PerspectiveSettings, RenderOptions, Scene, Spectrum, render};
@@ -156,6 +158,71 @@ fn furnaces_are_white_whatever_flags_are_written() {
                 assert!(error < if told { 1e-6 } else { 5e-3 }, "glass, {what}: {error}");
             }
         }
+    }
+}
+
+/// The crate's own mirror and glass.
+/// Seen to fail with 1/η in place of 1/η² for what is refracted.
+#[test]
+fn the_crate_s_own_are_white() {
+    for strategy in [LightStrategy::Auto, LightStrategy::Mis] {
+        for roulette in [false, true] {
+            let what = format!("{strategy:?}, roulette {roulette}");
+            let mirror = MirrorMaterial::new(Spectrum::WHITE);
+            let (picture, rejected) = furnace(mirror, strategy, roulette, 8);
+            assert_mean(&picture, 1.0, &format!("mirror, {what}"));
+            assert_eq!(rejected, 0, "mirror, {what}");
+            assert!(standard_error(&picture) < 1e-6, "mirror, {what}");
+            for eta in [1.5, 1.0 / 1.5] {
+                let glass = GlassMaterial::new(eta);
+                let (picture, rejected) = furnace(glass, strategy, roulette, 8192);
+                assert_mean(&picture, 1.0, &format!("glass {eta}, {what}"));
+                assert_eq!(rejected, 0, "glass {eta}, {what}");
+                assert!(standard_error(&picture) < 1e-6, "glass {eta}, {what}");
+            }
+        }
+    }
+}
+
+/// A sky that is found by paths alone.
+struct Unsampled(SkyLight);
+
+impl Light for Unsampled {
+    fn is_delta(&self) -> bool {
+        false
+    }
+    fn is_infinite(&self) -> bool {
+        true
+    }
+    fn sample_li(&self, _: Vec3, _: Vec2) -> Option<LightSample> {
+        unreachable!("no mirror needs it")
+    }
+    fn pdf_li(&self, hit: &LightHit) -> f32 {
+        self.0.pdf_li(hit)
+    }
+    fn le(&self, hit: &LightHit) -> Spectrum {
+        self.0.le(hit)
+    }
+}
+
+/// Where all lobes are specular no light is sampled. Seen to fail with lights sampled everywhere.
+#[test]
+fn mirrors_and_glass_ask_for_no_light() {
+    let materials: [Arc<dyn Material>; 2] =
+        [Arc::new(MirrorMaterial::new(Spectrum::WHITE)), Arc::new(GlassMaterial::new(1.5))];
+    for material in materials {
+        let scene = Scene::builder().material("ball", material).shape("ball", ball(12), "ball");
+        let scene = scene.light(Unsampled(SkyLight::new(Spectrum::WHITE))).build().unwrap();
+        let camera = PerspectiveSettings { eye: Vec3::NEG_Z * 2.0, ..Default::default() };
+        let integrator = PathIntegrator::new(1024);
+        let integrator = PathIntegrator { strategy: LightStrategy::Mis, ..integrator };
+        let settings = RenderSettings::new(SamplerSettings::default(), integrator);
+        let view = view(&camera, UVec2::splat(16));
+        let rendered = render(&scene, &view, &settings, &RenderOptions::default()).unwrap();
+        assert_eq!(rendered.counters.shadow_rays, 0);
+        assert!(
+            rendered.picture.color.iter().all(|color| (color.max_component() - 1.0).abs() < 1e-5)
+        );
     }
 }
 

@@ -99,6 +99,9 @@ impl<'a> Vertices<'a> {
     /// β f Li |cos θ| w / pdf.
     pub fn sample_lights(&mut self, slot: usize, shadow: &mut ShadowRays) {
         let Stage { rules, scene, paths, .. } = self.stage;
+        if self.bsdfs.is_specular() {
+            return;
+        }
         if rules.needs_light_u {
             self.draw_light_points(slot);
         }

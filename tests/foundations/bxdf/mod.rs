@@ -3,8 +3,10 @@
 mod bsdf;
 mod contract;
 mod events;
+mod fresnel;
 mod guard;
 mod sampling;
+mod specular;
 
 use lobe::Spectrum;
 use lobe::bxdf::{BxDF, LambertianReflection, OrenNayar, ScaledBxDF};

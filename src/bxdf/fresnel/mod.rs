@@ -1,0 +1,43 @@
+//! Fresnel's equations: how much a smooth surface reflects at an angle, for unpolarized light.
+
+mod conductor;
+mod dielectric;
+
+pub use conductor::conductor;
+pub(crate) use dielectric::boundary;
+pub use dielectric::dielectric;
+
+use crate::spectrum::Spectrum;
+
+/// What a smooth surface reflects at each angle (PBRT 3rd edition, section 8.2.1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fresnel {
+    /// All light at all angles.
+    NoOp,
+    /// A boundary between media that do not absorb.
+    Dielectric {
+        /// Index of refraction below the surface, over that above it.
+        eta: f32,
+    },
+    /// A metal. Light from below the surface, where none can come from, is reflected as from above.
+    Conductor {
+        /// Real part of the index of refraction, over the index above the surface.
+        eta: Spectrum,
+        /// Absorption: the imaginary part, over the index above the surface.
+        k: Spectrum,
+    },
+}
+
+impl Fresnel {
+    /// The fraction that is reflected of light whose direction has this cosine to the normal, negative below the surface.
+    #[inline]
+    pub fn evaluate(&self, cos: f32) -> Spectrum {
+        match *self {
+            Self::NoOp => Spectrum::WHITE,
+            Self::Dielectric { eta } => {
+                Spectrum::splat(dielectric(cos, if cos < 0.0 { 1.0 / eta } else { eta }))
+            }
+            Self::Conductor { eta, k } => conductor(cos, eta, k),
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! [`GlassMaterial`]: a smooth boundary between media that do not absorb.
+
+use std::sync::Arc;
+
+use super::Read;
+use super::medium::Medium;
+use super::reflectance::reflectance;
+use super::traits::Material;
+use crate::bxdf::{Arena, Bsdf, FresnelSpecular};
+use crate::interaction::SurfaceInteraction;
+use crate::params::{Fault, Key, Kind, Table};
+use crate::spectrum::Spectrum;
+use crate::texture::{Texture, TextureHandle, TextureKey, Textures};
+
+/// A smooth boundary, as of glass, water or diamond: light is reflected or refracted by Fresnel's equations (PBRT 3rd edition, section
+/// 9.2.2).
+///
+/// The normal points out of the medium: a mesh whose normals point inwards is a bubble. Where two media touch, the boundary is one
+/// surface with the relative index, such as 1.33 / 1.5 for water in a glass.
+#[doc(alias = "dielectric")]
+#[derive(Clone)]
+pub struct GlassMaterial {
+    kr: TextureHandle<Spectrum>,
+    kt: TextureHandle<Spectrum>,
+    eta: f32,
+}
+
+impl GlassMaterial {
+    /// Glass that loses no energy. `eta` is the index of refraction inside, over that outside; it must be above 0.
+    pub fn new(eta: f32) -> Self {
+        let white = || TextureHandle::Constant(Spectrum::WHITE);
+        Self { kr: white(), kt: white(), eta }
+    }
+
+    /// Scales what is reflected, by a fraction that is clamped to `[0, 1]` per band.
+    pub fn with_kr(self, kr: impl Texture<Spectrum> + 'static) -> Self {
+        Self { kr: kr.into_handle(), ..self }
+    }
+
+    /// Scales what is refracted, by a fraction that is clamped to `[0, 1]` per band.
+    pub fn with_kt(self, kt: impl Texture<Spectrum> + 'static) -> Self {
+        Self { kt: kt.into_handle(), ..self }
+    }
+}
+
+impl Material for GlassMaterial {
+    fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, _: &'a Arena) -> Bsdf<'a> {
+        let mut bsdf = Bsdf::isotropic(si);
+        let [r, t] = [&self.kr, &self.kt].map(|texture| reflectance(texture.evaluate(si)));
+        if r.is_some() || t.is_some() {
+            let [r, t] = [r, t].map(Option::unwrap_or_default);
+            bsdf.add(FresnelSpecular::new(r, t, self.eta));
+        }
+        bsdf
+    }
+}
+
+const KR: TextureKey<Spectrum> = TextureKey::of(
+    Key::new("kr", "scale of what is reflected").range(0.0..=1.0).default(Spectrum::WHITE),
+);
+const KT: TextureKey<Spectrum> = TextureKey::of(
+    Key::new("kt", "scale of what is refracted").range(0.0..=1.0).default(Spectrum::WHITE),
+);
+/// 1.5 by default, as in PBRT.
+const ETA: Key<Medium> = Key::new("eta", "index of refraction inside, over that outside")
+    .range(0.1..=10.0)
+    .default(Medium(1.5));
+
+/// `type = "glass"`
+pub(super) const KIND: Kind<Read> = Kind {
+    name: "glass",
+    meaning: "A smooth boundary that reflects and refracts",
+    keys: &[&ETA, &KR, &KT],
+    read,
+};
+
+fn read(table: &Table, textures: &Textures) -> Result<Arc<dyn Material>, Fault> {
+    let Medium(eta) = table.get(&ETA)?;
+    let [kr, kt] = [textures.get(table, &KR)?, textures.get(table, &KT)?];
+    Ok(Arc::new(GlassMaterial::new(eta).with_kr(kr).with_kt(kt)))
+}
