@@ -8,7 +8,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use lobe::accel::InstructionSet;
 use lobe::bxdf::{
-    Arena, Bsdf, BsdfBlock, BxDF, BxdfFlags, BxdfSample, LambertianReflection, OrenNayar,
+    Arena, Bsdf, BsdfBlock, BxDF, BxdfFlags, BxdfSample, EnergyPreservingOrenNayar,
+    LambertianReflection, OrenNayar,
 };
 use lobe::camera::Camera;
 use lobe::geometry::{Frame, Ray};
@@ -399,6 +400,53 @@ fn constants_change_no_bit() {
                 assert!(of(Arc::new(constant())) == disguised, "{kd:?}, {sigma}, {integrator:?}");
             }
         }
+    }
+}
+
+/// Energy-preserving roughness with lobes behind pointers.
+struct ApartEon(Surface);
+
+impl Material for ApartEon {
+    fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, arena: &'a Arena) -> Bsdf<'a> {
+        let mut bsdf = Bsdf::isotropic(si);
+        let r = self.0.kd.evaluate(si).clamp(0.0, 1.0);
+        let roughness = self.0.sigma.evaluate(si).clamp(0.0, 1.0);
+        if !r.is_black() {
+            bsdf.add(arena.lobe(EnergyPreservingOrenNayar::new(r, roughness)));
+        }
+        bsdf
+    }
+}
+
+/// Seen to fail with the roughness of the hit before, and with one that is not clamped.
+#[test]
+fn energy_preserving_roughness_changes_no_bit() {
+    let [plain, stripes, .., out_of_range, _, _] = surfaces();
+    let constant = plain.kd;
+    for (kd, sigma) in [
+        (stripes.kd, (|si| si.p().x.abs().fract()) as fn(&SurfaceInteraction) -> f32),
+        (out_of_range.kd, |si| 3.0 * si.p().y.sin()),
+        (constant, |_| 0.7),
+    ] {
+        let surface = Surface { kd, sigma, bump: None };
+        for integrator in integrators() {
+            let of = |material: Arc<dyn Material>| {
+                colors(scene([material.clone(), material], true, many_lights()), &integrator)
+            };
+            let eon = || MatteMaterial::new(kd).with_roughness(sigma);
+            let apart = of(Arc::new(ApartEon(surface)));
+            assert!(apart == of(Arc::new(eon())), "{integrator:?}");
+            assert!(apart == of(Arc::new(Disguised(eon()))), "{integrator:?}");
+        }
+    }
+    let red = Spectrum::new(0.8, 0.1, 0.2);
+    let surface = Surface { kd: constant, sigma: |_| 0.7, bump: None };
+    for integrator in integrators() {
+        let of = |material: Arc<dyn Material>| {
+            colors(scene([material.clone(), material], true, many_lights()), &integrator)
+        };
+        let constants = MatteMaterial::new(red).with_roughness(0.7);
+        assert!(of(Arc::new(constants)) == of(Arc::new(ApartEon(surface))), "{integrator:?}");
     }
 }
 

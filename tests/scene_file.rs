@@ -301,6 +301,10 @@ fn unknown_keys() {
             "s.toml:3:1: unknown key `valve` in [texture.t] of type \"constant\"; did you mean `value`?",
         ),
         (
+            "[material.m]\ntype = \"matte\"\nsigma = 20\nroughness = 0.5",
+            "s.toml:3:9: `material.m.sigma` is 20, expected no sigma beside a roughness",
+        ),
+        (
             "[material.m]\ntype = \"matte\"\nkb = 1",
             "s.toml:3:1: unknown key `kb` in [material.m] of type \"matte\"; did you mean `kd`?",
         ),

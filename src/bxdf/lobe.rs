@@ -82,12 +82,12 @@ macro_rules! lobe_of {
 }
 
 lobes!(
-    [LambertianReflection, OrenNayar],
+    [LambertianReflection, OrenNayar, EnergyPreservingOrenNayar],
     [SpecularReflection, SpecularTransmission, FresnelSpecular]
 );
 
 /// Most numbers of a lobe.
-pub(super) const MOST_NUMBERS: usize = 5;
+pub(super) const MOST_NUMBERS: usize = 8;
 
 #[inline(always)]
 fn padded<const N: usize>(numbers: [f32; N]) -> [f32; MOST_NUMBERS] {

@@ -4,37 +4,62 @@ use std::sync::Arc;
 
 use super::reflectance::reflectance;
 use super::{Material, Read, bump};
-use crate::bxdf::{Arena, Bsdf, BsdfBlock, LambertianReflection, OrenNayar};
+use crate::bxdf::{
+    Arena, Bsdf, BsdfBlock, EnergyPreservingOrenNayar, LambertianReflection, Lobe, OrenNayar,
+    WideBxdf,
+};
 use crate::interaction::{BLOCK, HitBlock, SurfaceInteraction};
 use crate::params::{Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
 use crate::texture::{Texture, TextureHandle, TextureKey, Textures};
 
-/// Diffuse reflection, Lambertian or Oren-Nayar (PBRT 3rd edition, section 9.2.1).
+/// Diffuse reflection: Lambertian, or rough by one of two models (PBRT 3rd edition, section 9.2.1).
 ///
 /// ```
 /// use lobe::material::MatteMaterial;
-/// let clay = MatteMaterial::new([0.6, 0.3, 0.2]).with_sigma(20.0);
+/// let clay = MatteMaterial::new([0.6, 0.3, 0.2]).with_roughness(0.5);
+/// // As in PBRT.
+/// let dark = MatteMaterial::new([0.6, 0.3, 0.2]).with_sigma(20.0);
 /// ```
 #[doc(alias = "diffuse")]
 #[doc(alias = "lambert")]
 #[derive(Clone)]
 pub struct MatteMaterial {
     kd: TextureHandle<Spectrum>,
-    sigma: Option<TextureHandle<f32>>,
+    rough: Option<Rough>,
     bump: Option<TextureHandle<f32>>,
+}
+
+/// A model of rough surfaces and its parameter.
+#[derive(Clone)]
+enum Rough {
+    OrenNayar(TextureHandle<f32>),
+    EnergyPreserving(TextureHandle<f32>),
+}
+
+impl Rough {
+    fn texture(&self) -> &TextureHandle<f32> {
+        let (Self::OrenNayar(texture) | Self::EnergyPreserving(texture)) = self;
+        texture
+    }
 }
 
 impl MatteMaterial {
     /// Lambertian reflection of the fraction `kd` of incident light, clamped to `[0, 1]` per band.
     pub fn new(kd: impl Texture<Spectrum> + 'static) -> Self {
-        Self { kd: kd.into_handle(), sigma: None, bump: None }
+        Self { kd: kd.into_handle(), rough: None, bump: None }
     }
 
-    /// Adds roughness: the standard deviation of the surface's slopes in degrees, clamped to `[0, 90]`. Where
-    /// it is 0 the surface is Lambertian, elsewhere it is [`OrenNayar`].
+    /// Makes the surface rough: the standard deviation of its slopes in degrees, clamped to `[0, 90]`. Where it is 0 the surface is
+    /// Lambertian, elsewhere it is [`OrenNayar`], which loses energy. Replaces [`with_roughness`](Self::with_roughness).
     pub fn with_sigma(self, sigma: impl Texture<f32> + 'static) -> Self {
-        Self { sigma: Some(sigma.into_handle()), ..self }
+        Self { rough: Some(Rough::OrenNayar(sigma.into_handle())), ..self }
+    }
+
+    /// Makes the surface rough without a loss of energy: [`EnergyPreservingOrenNayar`], with a roughness that is clamped to `[0, 1]`.
+    /// Replaces [`with_sigma`](Self::with_sigma).
+    pub fn with_roughness(self, roughness: impl Texture<f32> + 'static) -> Self {
+        Self { rough: Some(Rough::EnergyPreserving(roughness.into_handle())), ..self }
     }
 
     /// Adds bump mapping by a displacement along the normal, in scene units. See [`bump`].
@@ -51,12 +76,14 @@ impl Material for MatteMaterial {
         }
         let mut bsdf = Bsdf::isotropic(si);
         if let Some(r) = reflectance(self.kd.evaluate(si)) {
-            let sigma = self.sigma.as_ref().map_or(0.0, |s| s.evaluate(si).clamp(0.0, 90.0));
-            if sigma == 0.0 {
-                bsdf.add(LambertianReflection::new(r));
-            } else {
-                bsdf.add(OrenNayar::new(r, sigma));
-            }
+            let rough = self.rough.as_ref().map(|rough| (rough, rough.texture().evaluate(si)));
+            match rough {
+                Some((Rough::EnergyPreserving(_), roughness)) => bsdf.add(eon(r, roughness)),
+                Some((Rough::OrenNayar(_), sigma)) if sigma.clamp(0.0, 90.0) != 0.0 => {
+                    bsdf.add(oren_nayar(r, sigma))
+                }
+                _ => bsdf.add(LambertianReflection::new(r)),
+            };
         }
         bsdf
     }
@@ -70,29 +97,59 @@ impl Material for MatteMaterial {
         if self.bump.is_some() {
             return bsdfs.fill(hits, |_, si| self.compute_scattering(si, arena));
         }
-        // A black lobe stands for no lobe. A sigma of 0 gives the bits of Lambertian reflection.
-        let lambertian = |kd| LambertianReflection::new(reflectance(kd).unwrap_or_default());
-        let rough = |kd, sigma: f32| match reflectance(kd) {
-            Some(r) => OrenNayar::new(r, sigma.clamp(0.0, 90.0)),
-            None => OrenNayar::new(Spectrum::BLACK, 0.0),
-        };
-        let constant_sigma = self.sigma.as_ref().map_or(Some(0.0), |sigma| sigma.constant());
-        match (self.kd.constant(), constant_sigma) {
-            (Some(kd), Some(0.0)) => bsdfs.fill_constant(hits, lambertian(kd)),
-            (Some(kd), Some(sigma)) => bsdfs.fill_constant(hits, rough(kd, sigma)),
-            _ => {
-                // What a texture leaves out shows.
-                let (mut kd, mut sigma) = ([Spectrum::splat(f32::NAN); BLOCK], [f32::NAN; BLOCK]);
-                self.kd.evaluate_block(hits, &mut kd[..hits.len()]);
-                if constant_sigma == Some(0.0) {
-                    return bsdfs.fill_alike(hits, |i| lambertian(kd[i]));
-                }
-                if let Some(texture) = &self.sigma {
-                    texture.evaluate_block(hits, &mut sigma[..hits.len()]);
-                }
-                bsdfs.fill_alike(hits, |i| rough(kd[i], sigma[i]));
+        match &self.rough {
+            Some(Rough::EnergyPreserving(_)) => self.fill(hits, bsdfs, eon),
+            // A sigma of 0 gives the bits of Lambertian reflection.
+            Some(Rough::OrenNayar(sigma)) if sigma.constant() != Some(0.0) => {
+                self.fill(hits, bsdfs, oren_nayar);
             }
+            _ => self.fill(hits, bsdfs, |kd, _| {
+                LambertianReflection::new(reflectance(kd).unwrap_or_default())
+            }),
         }
+    }
+}
+
+impl MatteMaterial {
+    /// Fills a block with the lobes that `lobe` makes of kd and the parameter of roughness.
+    #[inline]
+    fn fill<'a, M, const N: usize>(
+        &self,
+        hits: &HitBlock,
+        bsdfs: &mut BsdfBlock<'a>,
+        lobe: impl Fn(Spectrum, f32) -> M,
+    ) where
+        M: WideBxdf<N> + Into<Lobe<'a>>,
+    {
+        let texture = self.rough.as_ref().map(Rough::texture);
+        let constant = texture.map_or(Some(0.0), |texture| texture.constant());
+        if let (Some(kd), Some(parameter)) = (self.kd.constant(), constant) {
+            return bsdfs.fill_constant(hits, lobe(kd, parameter));
+        }
+        // What a texture leaves out shows.
+        let mut kd = [Spectrum::splat(f32::NAN); BLOCK];
+        let mut parameter = [constant.unwrap_or(f32::NAN); BLOCK];
+        self.kd.evaluate_block(hits, &mut kd[..hits.len()]);
+        if let (Some(texture), None) = (texture, constant) {
+            texture.evaluate_block(hits, &mut parameter[..hits.len()]);
+        }
+        bsdfs.fill_alike(hits, |i| lobe(kd[i], parameter[i]));
+    }
+}
+
+/// A black lobe stands for no lobe.
+fn oren_nayar(kd: Spectrum, sigma: f32) -> OrenNayar {
+    match reflectance(kd) {
+        Some(r) => OrenNayar::new(r, sigma.clamp(0.0, 90.0)),
+        None => OrenNayar::new(Spectrum::BLACK, 0.0),
+    }
+}
+
+/// A black lobe stands for no lobe.
+fn eon(kd: Spectrum, roughness: f32) -> EnergyPreservingOrenNayar {
+    match reflectance(kd) {
+        Some(r) => EnergyPreservingOrenNayar::new(r, roughness.clamp(0.0, 1.0)),
+        None => EnergyPreservingOrenNayar::new(Spectrum::BLACK, 0.0),
     }
 }
 
@@ -103,10 +160,17 @@ const KD: TextureKey<Spectrum> = TextureKey::of(
         .default(Spectrum::splat(0.5)),
 );
 const SIGMA: TextureKey<f32> = TextureKey::of(
-    Key::new("sigma", "roughness: standard deviation of the surface's slopes")
-        .in_unit("degrees")
-        .range(0.0..=90.0)
-        .default(0.0),
+    Key::new(
+        "sigma",
+        "roughness as in PBRT, which loses energy: standard deviation of the surface's slopes",
+    )
+    .in_unit("degrees")
+    .range(0.0..=90.0)
+    .default(0.0),
+);
+const ROUGHNESS: TextureKey<Option<f32>> = TextureKey::of(
+    Key::optional("roughness", "roughness that loses no energy, in place of sigma")
+        .range(0.0..=1.0),
 );
 const BUMP: TextureKey<Option<f32>> = TextureKey::of(Key::optional(
     "bump",
@@ -116,16 +180,32 @@ const BUMP: TextureKey<Option<f32>> = TextureKey::of(Key::optional(
 /// `type = "matte"`
 pub(super) const KIND: Kind<Read> = Kind {
     name: "matte",
-    meaning: "Diffuse: Lambertian, or Oren-Nayar where sigma is not 0",
-    keys: &[&KD, &SIGMA, &BUMP],
+    meaning: "Diffuse: Lambertian, or rough by one of two models",
+    keys: &[&KD, &ROUGHNESS, &SIGMA, &BUMP],
     read,
 };
 
 fn read(table: &Table, textures: &Textures) -> Result<Arc<dyn Material>, Fault> {
     let matte = MatteMaterial::new(textures.get(table, &KD)?);
-    let matte = matte.with_sigma(textures.get(table, &SIGMA)?);
+    let sigma = textures.get(table, &SIGMA)?;
+    let matte = match textures.find(table, &ROUGHNESS)? {
+        None => matte.with_sigma(sigma),
+        Some(_) if sigma.constant() != Some(0.0) => return Err(two_models(table)),
+        Some(roughness) => matte.with_roughness(roughness),
+    };
     Ok(match textures.find(table, &BUMP)? {
         Some(displacement) => Arc::new(matte.with_bump(displacement)),
         None => Arc::new(matte),
     })
+}
+
+/// Both kinds of roughness.
+fn two_models(table: &Table) -> Fault {
+    match table.value(&SIGMA) {
+        Ok(Some(node)) => {
+            table.unfit(&SIGMA, node, node.value.to_string(), "no sigma beside a roughness".into())
+        }
+        Ok(None) => table.missing(&SIGMA),
+        Err(fault) => fault,
+    }
 }

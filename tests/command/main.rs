@@ -183,7 +183,7 @@ fn help_lists_what_scene_files_can_hold() {
     let materials = folder.prints("help materials");
     assert!(
         materials.contains(
-            "    sigma          a texture's name or degrees from 0 to 90; default 0. Roughness: standard\n"
+            "    sigma          a texture's name or degrees from 0 to 90; default 0. Roughness as in PBRT, which\n"
         ),
         "{materials}"
     );

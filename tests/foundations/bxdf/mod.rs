@@ -9,7 +9,7 @@ mod sampling;
 mod specular;
 
 use lobe::Spectrum;
-use lobe::bxdf::{BxDF, LambertianReflection, OrenNayar, ScaledBxDF};
+use lobe::bxdf::{BxDF, EnergyPreservingOrenNayar, LambertianReflection, OrenNayar, ScaledBxDF};
 use lobe::glam::Vec3;
 
 use crate::common::lobes::{Stretched, Through};
@@ -33,6 +33,9 @@ fn lobes() -> Vec<(&'static str, Box<dyn BxDF>)> {
         ("Oren-Nayar, almost smooth", Box::new(OrenNayar::new(COLOR, 0.01))),
         ("Oren-Nayar", Box::new(rough)),
         ("Oren-Nayar, roughest", Box::new(OrenNayar::new(COLOR, 90.0))),
+        ("EON, smooth", Box::new(EnergyPreservingOrenNayar::new(COLOR, 0.0))),
+        ("EON", Box::new(EnergyPreservingOrenNayar::new(COLOR, 0.3))),
+        ("EON, roughest", Box::new(EnergyPreservingOrenNayar::new(COLOR, 1.0))),
         ("scaled Lambertian", Box::new(ScaledBxDF::new(LambertianReflection::new(COLOR), COLOR))),
         ("scaled Oren-Nayar", Box::new(ScaledBxDF::new(rough, COLOR))),
         ("stretched", Box::new(Stretched { r: 0.7, m: Vec3::new(0.2, 0.6, 1.0) })),
