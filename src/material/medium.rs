@@ -51,3 +51,24 @@ impl Param for Medium {
         Self(f32::example(limits))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::Key;
+
+    /// Seen to fail with the first medium taken for all, and with numbers out of range.
+    #[test]
+    fn an_index_is_a_number_or_a_name() {
+        const KEY: Key<Medium> = Key::new("eta", "an index").range(0.1..=10.0);
+        let read = |value: Value| Medium::from_value(&value, KEY.limits()).map(|Medium(eta)| eta);
+        for &(name, eta) in MEDIA {
+            assert_eq!(read(name.into()), Some(eta), "{name}");
+            assert!((1.0..3.0).contains(&eta), "{name}");
+        }
+        assert_eq!(read("diamond".into()), Some(2.417));
+        assert_eq!(read("Diamond".into()), None);
+        assert_eq!(read(Value::Number("1.33".into())), Some(1.33));
+        assert_eq!(read(Value::Number("0".into())), None);
+    }
+}

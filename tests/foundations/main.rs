@@ -15,6 +15,7 @@ mod floats;
 mod frames;
 mod interaction;
 mod lights;
+mod materials;
 mod optics;
 mod rays;
 mod sampling;
