@@ -25,9 +25,9 @@ use crate::spectrum::{Bands, Spectrum};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnergyPreservingOrenNayar {
     /// ρ A / π.
-    once: Spectrum,
+    once: [f32; 3],
     /// ρₘ A r / (π (c₁ - c₂)).
-    often: Spectrum,
+    often: [f32; 3],
     roughness: f32,
     /// Share of uniform directions among samples, but for a factor that depends on the direction: the tenth root of the roughness.
     spread: f32,
@@ -46,17 +46,22 @@ impl EnergyPreservingOrenNayar {
         let of_band = |r: f32| r * r * mean / (1.0 - r * (1.0 - mean));
         let often = Spectrum::from(r.to_array().map(of_band));
         Self {
-            once: r * (a * FRAC_1_PI),
-            often: often * (a * roughness * FRAC_1_PI / (C1 - C2)),
+            once: (r * (a * FRAC_1_PI)).to_array(),
+            often: (often * (a * roughness * FRAC_1_PI / (C1 - C2))).to_array(),
             roughness,
             spread: roughness.powf(0.1),
         }
     }
 
+    /// π times the sum of both parts, each times a factor.
+    fn sum(&self, once: f32, often: f32) -> Spectrum {
+        (Spectrum::from(self.once) * once + Spectrum::from(self.often) * often) * PI
+    }
+
     /// The reflected fraction of light from a direction: ρ E + ρₘ (1 - E).
     fn albedo(&self, wo: Vec3) -> Spectrum {
         let (g, left) = (g_over_pi::<f32>(wo.into()), left::<f32>(wo.into()));
-        (self.once * (1.0 + self.roughness * g) + self.often * ((C1 - C2) * left)) * PI
+        self.sum(1.0 + self.roughness * g, (C1 - C2) * left)
     }
 }
 
@@ -162,7 +167,7 @@ impl<F: Float> Clipped<F> {
 impl WideBxdf<8> for EnergyPreservingOrenNayar {
     #[inline(always)]
     fn numbers(&self) -> [f32; 8] {
-        let ([r, g, b], [more_r, more_g, more_b]) = (self.once.to_array(), self.often.to_array());
+        let Self { once: [r, g, b], often: [more_r, more_g, more_b], .. } = *self;
         [r, g, b, more_r, more_g, more_b, self.roughness, self.spread]
     }
 
@@ -236,6 +241,6 @@ impl BxDF for EnergyPreservingOrenNayar {
 
     fn rho_hh(&self, _u1: &[Vec2], _uc: &[f32], _u2: &[Vec2]) -> Spectrum {
         let (c2, left) = (C2 * self.roughness, (C1 - C2) * (C1 - C2));
-        (self.once * (1.0 + c2) + self.often * left) * PI
+        self.sum(1.0 + c2, left)
     }
 }

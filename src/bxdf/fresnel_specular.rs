@@ -16,8 +16,8 @@ use crate::spectrum::Spectrum;
 #[doc(alias = "glass")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FresnelSpecular {
-    r: Spectrum,
-    t: Spectrum,
+    r: [f32; 3],
+    t: [f32; 3],
     eta: f32,
 }
 
@@ -26,7 +26,7 @@ impl FresnelSpecular {
     /// surface, over that above it: above 0.
     #[inline]
     pub const fn new(r: Spectrum, t: Spectrum, eta: f32) -> Self {
-        Self { r, t, eta }
+        Self { r: r.to_array(), t: t.to_array(), eta }
     }
 }
 
@@ -52,17 +52,18 @@ impl BxDF for FresnelSpecular {
         let eta = relative(self.eta, wo);
         let [reflected, cos] = boundary(wo.z, eta);
         Some(if uc < reflected {
-            let f = self.r * (reflected / wo.z.abs());
+            let f = Spectrum::from(self.r) * (reflected / wo.z.abs());
             BxdfSample::specular(f, mirrored(wo), reflected)
         } else {
             let share = 1.0 - reflected;
-            transmitted(self.t, wo, eta, cos, share, share)
+            transmitted(self.t.into(), wo, eta, cos, share, share)
         })
     }
 
     #[inline]
     fn albedo_estimate(&self, wo: Vec3) -> f32 {
         let reflected = boundary(wo.z, relative(self.eta, wo))[0];
-        (self.r * reflected + self.t * (1.0 - reflected)).max_component()
+        let [r, t] = [self.r, self.t].map(Spectrum::from);
+        (r * reflected + t * (1.0 - reflected)).max_component()
     }
 }

@@ -97,6 +97,9 @@ fn padded<const N: usize>(numbers: [f32; N]) -> [f32; MOST_NUMBERS] {
     padded
 }
 
+// A Bsdf has room for several lobes, and moves all of it.
+const _: () = assert!(size_of::<Lobe>() <= 48);
+
 impl<'a> From<&'a dyn BxDF> for Lobe<'a> {
     #[inline]
     fn from(bxdf: &'a dyn BxDF) -> Self {

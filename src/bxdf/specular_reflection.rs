@@ -12,7 +12,8 @@ use crate::spectrum::Spectrum;
 #[doc(alias = "mirror")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpecularReflection {
-    r: Spectrum,
+    // Arrays, unlike spectra, need no alignment: all lobes of a Bsdf have the size of the largest.
+    r: [f32; 3],
     fresnel: Fresnel,
 }
 
@@ -20,13 +21,13 @@ impl SpecularReflection {
     /// Scales what `fresnel` reflects by `r`, in `[0, 1]` per band.
     #[inline]
     pub const fn new(r: Spectrum, fresnel: Fresnel) -> Self {
-        Self { r, fresnel }
+        Self { r: r.to_array(), fresnel }
     }
 
     /// The reflected fraction of light from a direction.
     #[inline]
     fn reflectance(&self, w: Vec3) -> Spectrum {
-        self.r * self.fresnel.evaluate(w.z)
+        Spectrum::from(self.r) * self.fresnel.evaluate(w.z)
     }
 }
 

@@ -31,7 +31,8 @@ pub trait Texture<T>: Send + Sync {
     fn evaluate(&self, si: &SurfaceInteraction) -> T;
 
     /// The values at a block of hits, each of which [`evaluate`](Self::evaluate) would return, in their order. `values` is as
-    /// long as there are hits, and what it holds before has no meaning: every value has to be set. The provided method is compiled for each texture, so that a block costs one call through a pointer.
+    /// long as there are hits, and what it holds before has no meaning: every value has to be set. The provided method is compiled for
+    /// each texture, so that a block costs one call through a pointer.
     fn evaluate_block(&self, hits: &HitBlock, values: &mut [T]) {
         for (i, value) in values.iter_mut().enumerate() {
             *value = self.evaluate(&hits.get(i));

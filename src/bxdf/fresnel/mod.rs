@@ -21,10 +21,10 @@ pub enum Fresnel {
     },
     /// A metal. Light from below the surface, where none can come from, is reflected as from above.
     Conductor {
-        /// Real part of the index of refraction, over the index above the surface.
-        eta: Spectrum,
+        /// Real part of the index of refraction in each band, over the index above the surface.
+        eta: [f32; 3],
         /// Absorption: the imaginary part, over the index above the surface.
-        k: Spectrum,
+        k: [f32; 3],
     },
 }
 
@@ -37,7 +37,7 @@ impl Fresnel {
             Self::Dielectric { eta } => {
                 Spectrum::splat(dielectric(cos, if cos < 0.0 { 1.0 / eta } else { eta }))
             }
-            Self::Conductor { eta, k } => conductor(cos, eta, k),
+            Self::Conductor { eta, k } => conductor(cos, eta.into(), k.into()),
         }
     }
 }

@@ -50,7 +50,10 @@ fn mirrors_reflect_what_fresnel_says() {
         let wo = direction(&mut rng);
         let (fresnel, expected) = match trial % 3 {
             0 => (Fresnel::NoOp, 1.0),
-            1 => (Fresnel::Conductor { eta, k }, conductor(wo.z, eta, k).to_array()[1]),
+            1 => (
+                Fresnel::Conductor { eta: eta.to_array(), k: k.to_array() },
+                conductor(wo.z, eta, k).to_array()[1],
+            ),
             _ => {
                 let relative = if wo.z < 0.0 { 1.0 / 1.5 } else { 1.5 };
                 (Fresnel::Dielectric { eta: 1.5 }, dielectric(wo.z, relative))
