@@ -17,21 +17,21 @@ use crate::spectrum::{Bands, Spectrum};
 #[doc(alias = "diffuse")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LambertianReflection {
-    r: Spectrum,
+    r: [f32; 3],
 }
 
 impl LambertianReflection {
     /// Reflects the fraction `r` of incident light, in `[0, 1]` per band.
     #[inline]
     pub const fn new(r: Spectrum) -> Self {
-        Self { r }
+        Self { r: r.to_array() }
     }
 }
 
 impl WideBxdf<3> for LambertianReflection {
     #[inline(always)]
     fn numbers(&self) -> [f32; 3] {
-        self.r.to_array()
+        self.r
     }
 
     #[inline(always)]
@@ -58,16 +58,16 @@ impl BxDF for LambertianReflection {
 
     #[inline]
     fn albedo_estimate(&self, _wo: Vec3) -> f32 {
-        self.r.max_component()
+        Spectrum::from(self.r).max_component()
     }
 
     /// R for every direction.
     fn rho_hd(&self, _wo: Vec3, _uc: &[f32], _u: &[Vec2]) -> Spectrum {
-        self.r
+        self.r.into()
     }
 
     /// R.
     fn rho_hh(&self, _u1: &[Vec2], _uc: &[f32], _u2: &[Vec2]) -> Spectrum {
-        self.r
+        self.r.into()
     }
 }

@@ -5,9 +5,10 @@ use glam::{Vec2, Vec3};
 use super::{BxDF, BxdfFlags, BxdfSample, WideBxdf};
 use crate::spectrum::Spectrum;
 
-/// Defines [`Lobe`] from the lists of this crate's models: those that are evaluated for several hits at a time, and others.
+/// Defines [`Lobe`] from the lists of this crate's models: those that are evaluated for several hits at a time, others, and those that
+/// borrow from their material.
 macro_rules! lobes {
-    ([$($wide:ident),* $(,)?], [$($single:ident),* $(,)?]) => {
+    ([$($wide:ident),*], [$($single:ident),*], [$($borrowing:ident),*]) => {
         /// A model of this crate that is evaluated for several hits at a time.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Model {
@@ -38,13 +39,13 @@ macro_rules! lobes {
             }
         }
 
-        lobe_of!($($wide,)* $($single,)*);
+        lobe_of!([$($wide,)* $($single,)*] [$($borrowing,)*]);
     };
 }
 
 /// Defines [`Lobe`] from the list of this crate's models.
 macro_rules! lobe_of {
-    ($($model:ident),* $(,)?) => {
+    ([$($model:ident,)*] [$($borrowing:ident,)*]) => {
         /// One lobe: a model of this crate, stored in place, or a reference to any other [`BxDF`].
         ///
         /// Models of this crate are dispatched by an inlined branch, others by a virtual call.
@@ -55,6 +56,10 @@ macro_rules! lobe_of {
             $(
                 #[doc = concat!("See [`", stringify!($model), "`](super::", stringify!($model), ").")]
                 $model(super::$model),
+            )*
+            $(
+                #[doc = concat!("See [`", stringify!($borrowing), "`](super::", stringify!($borrowing), ").")]
+                $borrowing(super::$borrowing<'a>),
             )*
             /// A model defined elsewhere, held by its material or by an [`Arena`](super::Arena::lobe).
             Custom(&'a dyn BxDF),
@@ -69,11 +74,21 @@ macro_rules! lobe_of {
             }
         )*
 
+        $(
+            impl<'a> From<super::$borrowing<'a>> for Lobe<'a> {
+                #[inline]
+                fn from(bxdf: super::$borrowing<'a>) -> Self {
+                    Self::$borrowing(bxdf)
+                }
+            }
+        )*
+
         /// Calls the same method on whichever model the lobe holds.
         macro_rules! each {
             ($lobe:expr, $bxdf:ident => $call:expr) => {
                 match $lobe {
                     $(Lobe::$model($bxdf) => $call,)*
+                    $(Lobe::$borrowing($bxdf) => $call,)*
                     Lobe::Custom($bxdf) => $call,
                 }
             };
@@ -83,7 +98,14 @@ macro_rules! lobe_of {
 
 lobes!(
     [LambertianReflection, OrenNayar, EnergyPreservingOrenNayar],
-    [SpecularReflection, SpecularTransmission, FresnelSpecular]
+    [
+        LambertianTransmission,
+        SpecularReflection,
+        SpecularTransmission,
+        FresnelSpecular,
+        ThinFresnelSpecular
+    ],
+    [MicrofacetReflection, FresnelMicrofacet, CoatedDiffuse, RetroReflection]
 );
 
 /// Most numbers of a lobe.
@@ -98,7 +120,7 @@ fn padded<const N: usize>(numbers: [f32; N]) -> [f32; MOST_NUMBERS] {
 }
 
 // A Bsdf has room for several lobes, and moves all of it.
-const _: () = assert!(size_of::<Lobe>() <= 48);
+const _: () = assert!(size_of::<Lobe>() <= 64);
 
 impl<'a> From<&'a dyn BxDF> for Lobe<'a> {
     #[inline]

@@ -25,7 +25,7 @@ use crate::spectrum::{Bands, Spectrum};
 #[doc(alias = "diffuse")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrenNayar {
-    r: Spectrum,
+    r: [f32; 3],
     a: f32,
     b: f32,
 }
@@ -36,14 +36,15 @@ impl OrenNayar {
     #[inline]
     pub fn new(r: Spectrum, sigma: f32) -> Self {
         let sigma2 = sigma.to_radians().powi(2);
-        Self { r, a: 1.0 - sigma2 / (2.0 * (sigma2 + 0.33)), b: 0.45 * sigma2 / (sigma2 + 0.09) }
+        let [a, b] = [1.0 - sigma2 / (2.0 * (sigma2 + 0.33)), 0.45 * sigma2 / (sigma2 + 0.09)];
+        Self { r: r.to_array(), a, b }
     }
 }
 
 impl WideBxdf<5> for OrenNayar {
     #[inline(always)]
     fn numbers(&self) -> [f32; 5] {
-        let [r, g, b] = self.r.to_array();
+        let [r, g, b] = self.r;
         [r, g, b, self.a, self.b]
     }
 
@@ -76,7 +77,7 @@ impl BxDF for OrenNayar {
     /// R: roughness lowers the albedo by less than half.
     #[inline]
     fn albedo_estimate(&self, _wo: Vec3) -> f32 {
-        self.r.max_component()
+        Spectrum::from(self.r).max_component()
     }
 
     /// The integral of f cos θi in closed form: over φ, max(0, cos φ) gives 2; over θi it splits into the
@@ -88,11 +89,11 @@ impl BxDF for OrenNayar {
         // tan θ (1 - s³) = s c (1 + s + s²) / (1 + s), which stays finite at grazing angles.
         let beyond = sin * cos * (1.0 + sin + sin2_theta(wo)) / (3.0 * (1.0 + sin));
         let within = 0.5 * sin * (theta - sin * cos);
-        self.r * (self.a + 2.0 * FRAC_1_PI * self.b * (within + beyond))
+        Spectrum::from(self.r) * (self.a + 2.0 * FRAC_1_PI * self.b * (within + beyond))
     }
 
     /// The cosine-weighted mean of ρ_hd: R (A + B (2/3 - 64/(45π))).
     fn rho_hh(&self, _u1: &[Vec2], _uc: &[f32], _u2: &[Vec2]) -> Spectrum {
-        self.r * (self.a + self.b * (2.0 / 3.0 - 64.0 / 45.0 * FRAC_1_PI))
+        Spectrum::from(self.r) * (self.a + self.b * (2.0 / 3.0 - 64.0 / 45.0 * FRAC_1_PI))
     }
 }

@@ -14,7 +14,7 @@ use crate::spectrum::Spectrum;
 #[doc(alias = "refraction")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpecularTransmission {
-    t: Spectrum,
+    t: [f32; 3],
     eta: f32,
 }
 
@@ -23,13 +23,13 @@ impl SpecularTransmission {
     /// above 0.
     #[inline]
     pub const fn new(t: Spectrum, eta: f32) -> Self {
-        Self { t, eta }
+        Self { t: t.to_array(), eta }
     }
 
     /// The transmitted fraction of light from a direction.
     #[inline]
     fn transmittance(&self, w: Vec3) -> Spectrum {
-        self.t * (1.0 - boundary(w.z, relative(self.eta, w))[0])
+        Spectrum::from(self.t) * (1.0 - boundary(w.z, relative(self.eta, w))[0])
     }
 }
 
@@ -54,7 +54,7 @@ impl BxDF for SpecularTransmission {
     fn sample_f(&self, wo: Vec3, _uc: f32, _u: Vec2) -> Option<BxdfSample> {
         let eta = relative(self.eta, wo);
         let [reflected, cos] = boundary(wo.z, eta);
-        (reflected < 1.0).then(|| transmitted(self.t, wo, eta, cos, 1.0 - reflected, 1.0))
+        (reflected < 1.0).then(|| transmitted(self.t.into(), wo, eta, cos, 1.0 - reflected, 1.0))
     }
 
     #[inline]

@@ -1,0 +1,195 @@
+//! [`FresnelMicrofacet`]: glossy reflection and refraction.
+
+use std::f32::consts::FRAC_1_PI;
+
+use glam::{Vec2, Vec3};
+
+use super::fresnel::boundary;
+use super::microfacet::{BoundaryLosses, Ggx, above, flipped, multiple};
+use super::specular_transmission::relative;
+use super::{BxDF, BxdfFlags, BxdfSample, FresnelSpecular};
+use crate::spectrum::Spectrum;
+
+/// Reflection and refraction by the facets of a rough boundary between media that do not absorb, which have the distribution [`Ggx`].
+///
+/// Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", equations 20 and 21, the second divided by η²: paths
+/// start at the camera. What single scattering loses, up to 69 %, goes to both sides in proportion to their [`BoundaryLosses`]: with
+/// η² taken out, a boundary that absorbs nothing is white from both sides, at every angle and roughness, within 1e-3. Normals are drawn by
+/// spherical caps without a bound, which would cut off refracted light.
+///
+/// Surfaces that f32 does not tell from smooth ones are specular: with a roughness, or a roughness times |η - 1|, below
+/// [`Ggx::MIN_ALPHA`].
+#[doc(alias = "rough glass")]
+#[doc(alias = "dielectric")]
+#[derive(Clone, Copy, Debug)]
+pub struct FresnelMicrofacet<'a> {
+    r: [f32; 3],
+    t: [f32; 3],
+    ggx: Ggx,
+    losses: &'a BoundaryLosses,
+}
+
+/// What there is to know about a pair of directions.
+struct Pair {
+    /// Both as if wo were above.
+    wo: Vec3,
+    wi: Vec3,
+    /// The index on the far side of wo, over that on its own.
+    eta: f32,
+    is_below: bool,
+}
+
+impl<'a> FresnelMicrofacet<'a> {
+    /// Scales what is reflected by `r` and what is refracted by `t`, in `[0, 1]` per band. `alpha` is the roughness along x and
+    /// along y, in `[0, 1]`; `losses` are those of this roughness and know the index of refraction.
+    #[inline]
+    pub fn new(r: Spectrum, t: Spectrum, alpha: [f32; 2], losses: &'a BoundaryLosses) -> Self {
+        let [x, y] = alpha;
+        let spread = (losses.eta() - 1.0).abs();
+        let bends = Ggx::or_smooth([x * spread, y * spread]).rough().is_some();
+        let ggx = Ggx::or_smooth(if bends { alpha } else { [0.0; 2] });
+        Self { r: r.to_array(), t: t.to_array(), ggx, losses }
+    }
+
+    #[inline]
+    fn pair(&self, wo: Vec3, wi: Vec3) -> Pair {
+        let [up, wi] = above(wo, wi);
+        Pair { wo: up, wi, eta: relative(self.losses.eta(), wo), is_below: wo.z < 0.0 }
+    }
+
+    /// Value of single scattering and its density, without the colour.
+    #[inline]
+    fn once(&self, &Pair { wo, wi, eta, is_below }: &Pair) -> [f32; 2] {
+        // Visible normals, but for their area and the cosine.
+        let visible = 2.0 / (wo.z + self.ggx.stretch(wo.into()));
+        if wi.z > 0.0 {
+            let sum = wo + wi;
+            let [reflected, _] = boundary((0.5 * sum.length()).min(1.0), eta);
+            let facets = reflected * self.ggx.area(sum.into());
+            let seen = self.ggx.seen_by_both(wo.into(), wi.into());
+            return [0.5 * facets * seen, 0.25 * facets * visible];
+        }
+        // As seen from above, so that exchanging the directions changes no bit but the factor η².
+        let [a, b] = if is_below { [-wi, -wo] } else { [wo, wi] };
+        let index = self.losses.eta();
+        let sum = a + index * b;
+        let sum = if sum.z < 0.0 { -sum } else { sum };
+        let length2 = sum.length_squared();
+        let m = sum / length2.sqrt();
+        let [cos_a, cos_b] = [a.dot(m), -b.dot(m)];
+        // Each side sees the facet from its own side.
+        if !(length2 > 0.0 && cos_a > 0.0 && cos_b > 0.0) {
+            return [0.0; 2];
+        }
+        // 1 - F, from both cosines.
+        let [across, along] = [cos_a + index * cos_b, index * cos_a + cos_b];
+        let both = 1.0 / (across * across) + 1.0 / (along * along);
+        let transmitted = 2.0 * index * cos_a * cos_b * both;
+        // dm/dwi is η² |wi · m| / (wo · m + η wi · m)², and the last is the length of the sum.
+        let facets = transmitted * self.ggx.area(sum.into()) * cos_a * cos_b / length2;
+        let seen = self.ggx.seen_by_both(a.into(), (-b).into());
+        let f = 2.0 * facets * seen;
+        if is_below {
+            [f * index * index, facets * visible]
+        } else {
+            [f, facets * index * index * visible]
+        }
+    }
+
+    /// Value of multiple scattering and its density, without the colour.
+    #[inline]
+    fn often(&self, &Pair { wo, wi, eta, is_below }: &Pair) -> [f32; 2] {
+        let crossing = self.losses.crossing(&self.ggx, is_below);
+        let reflects = wi.z > 0.0;
+        let far = if reflects { is_below } else { !is_below };
+        let wi = Vec3::new(wi.x, wi.y, wi.z.abs());
+        let (share, scale) = if reflects { (1.0 - crossing, 1.0) } else { (crossing, eta * eta) };
+        let (far, mean) = {
+            let losses = self.losses.side(far);
+            (losses.at(&self.ggx, wi), losses.mean(&self.ggx))
+        };
+        let lost = self.losses.side(is_below).at(&self.ggx, wo);
+        let f = if mean > 0.0 { share * lost * far / mean * FRAC_1_PI / scale } else { 0.0 };
+        [f, share * multiple::pdf(self.ggx.mean_alpha(), wi.z)]
+    }
+
+    /// The surface as a specular one.
+    #[inline]
+    fn smooth(&self) -> FresnelSpecular {
+        FresnelSpecular::new(self.r.into(), self.t.into(), self.losses.eta())
+    }
+
+    /// A direction as if wo were above, with wo above.
+    #[inline]
+    fn direction(&self, &Pair { wo, eta, is_below, .. }: &Pair, uc: f32, u: Vec2) -> Option<Vec3> {
+        let lost = self.losses.side(is_below).at(&self.ggx, wo);
+        if uc < lost {
+            let (uc, crossing) = (uc / lost, self.losses.crossing(&self.ggx, is_below));
+            let alpha = self.ggx.mean_alpha();
+            return Some(if uc < crossing {
+                flipped(multiple::sample(alpha, u))
+            } else {
+                multiple::sample(alpha, u)
+            });
+        }
+        let uc = (uc - lost) / (1.0 - lost);
+        let m: Vec3 = self.ggx.sample_visible(wo.into(), u.to_array()).into();
+        let cos = wo.dot(m).min(1.0);
+        let [reflected, cos_t] = boundary(cos, eta);
+        let (wi, side) = if uc < reflected {
+            (2.0 * cos * m - wo, 1.0)
+        } else {
+            ((cos / eta - cos_t) * m - wo / eta, -1.0)
+        };
+        (wi.z * side > 0.0).then(|| wi.normalize())
+    }
+}
+
+impl BxDF for FresnelMicrofacet<'_> {
+    #[inline]
+    fn flags(&self) -> BxdfFlags {
+        let spread = match self.ggx.rough() {
+            Some(_) => BxdfFlags::GLOSSY,
+            None => BxdfFlags::SPECULAR,
+        };
+        BxdfFlags::REFLECTION | BxdfFlags::TRANSMISSION | spread
+    }
+
+    #[inline]
+    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+        if self.ggx.rough().is_none() || wi.z == 0.0 {
+            return Spectrum::BLACK;
+        }
+        let pair = self.pair(wo, wi);
+        let color = if pair.wi.z > 0.0 { self.r } else { self.t };
+        Spectrum::from(color) * (self.once(&pair)[0] + self.often(&pair)[0])
+    }
+
+    fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
+        if self.ggx.rough().is_none() {
+            return self.smooth().sample_f(wo, uc, u);
+        }
+        let from = self.pair(wo, wo);
+        let wi = self.direction(&from, uc, u)?;
+        let wi = if from.is_below { flipped(wi) } else { wi };
+        let pdf = self.pdf(wo, wi);
+        let event = BxdfSample::glossy(self.f(wo, wi), wi, pdf);
+        let reflects = (wi.z > 0.0) == (wo.z > 0.0);
+        (pdf > 0.0).then_some(if reflects { event } else { event.transmitted(from.eta) })
+    }
+
+    #[inline]
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        if self.ggx.rough().is_none() || wi.z == 0.0 {
+            return 0.0;
+        }
+        let pair = self.pair(wo, wi);
+        let lost = self.losses.side(pair.is_below).at(&self.ggx, pair.wo);
+        (1.0 - lost) * self.once(&pair)[1] + lost * self.often(&pair)[1]
+    }
+
+    #[inline]
+    fn albedo_estimate(&self, wo: Vec3) -> f32 {
+        self.smooth().albedo_estimate(wo)
+    }
+}
