@@ -5,7 +5,7 @@ use std::cell::Cell;
 use arrayvec::ArrayVec;
 use glam::{Vec2, Vec3};
 
-use super::{BxDF, BxdfFlags, BxdfSample, Lobe};
+use super::{Arena, BxDF, BxdfFlags, BxdfSample, Lobe, ScaledBxDF};
 use crate::geometry::Frame;
 use crate::geometry::float::ONE_MINUS_EPSILON;
 use crate::interaction::SurfaceInteraction;
@@ -111,6 +111,24 @@ impl<'a> Bsdf<'a> {
             self.reject();
         }
         added
+    }
+
+    /// The lobes of two surfaces, scaled by weights in `[0, 1]`, in the frame of the first. If its tangents are arbitrary and both have the
+    /// same normal, they are those of the second.
+    pub(crate) fn mixed(&self, weight: f32, other: &Self, by: f32, arena: &'a Arena) -> Self {
+        let of_normal = Frame::from_normal(self.frame.n);
+        let frame = match self.frame == of_normal && other.frame.n == self.frame.n {
+            true => other.frame,
+            false => self.frame,
+        };
+        let rejected = Cell::new(self.rejected() + other.rejected());
+        let mut bsdf = Self { rejected, ..Self::in_frame(frame, self.ng) };
+        for (lobes, weight) in [(&self.lobes, weight), (&other.lobes, by)] {
+            for &(lobe, _) in lobes {
+                bsdf.add(arena.lobe(ScaledBxDF::new(lobe, Spectrum::splat(weight))));
+            }
+        }
+        bsdf
     }
 
     /// The shading frame.

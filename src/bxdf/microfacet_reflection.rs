@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 
 use super::fresnel::Fresnel;
 use super::microfacet::{Ggx, Losses, above, flipped, multiple};
-use super::{BxDF, BxdfFlags, BxdfSample, SpecularReflection};
+use super::{BxDF, BxdfFlags, BxdfSample, SpecularReflection, specular_reflection};
 use crate::spectrum::Spectrum;
 
 /// Reflection by the facets of a rough surface, which have the distribution [`Ggx`] and reflect light by Fresnel's equations.
@@ -14,7 +14,7 @@ use crate::spectrum::Spectrum;
 /// [`and_multiple`](Self::and_multiple), that comes back: a metal that reflects all light is white at every angle and roughness within
 /// 6e-4. Directions are drawn by bounded spherical caps.
 ///
-/// Surfaces that f32 does not tell from smooth ones, with a roughness below [`Ggx::MIN_ALPHA`], are specular.
+/// Both sides look alike. Surfaces that f32 does not tell from smooth ones, with a roughness below [`Ggx::MIN_ALPHA`], are specular.
 #[doc(alias = "glossy")]
 #[doc(alias = "ggx")]
 #[doc(alias = "torrance-sparrow")]
@@ -79,7 +79,7 @@ impl BxDF for MicrofacetReflection<'_> {
         let Some(ggx) = self.ggx.rough().filter(|_| wi.z > 0.0) else { return Spectrum::BLACK };
         let sum = up + wi;
         // wo · m, from the length of the sum.
-        let cos = (0.5 * sum.length()).min(1.0).copysign(wo.z);
+        let cos = (0.5 * sum.length()).min(1.0);
         let once = 0.5 * ggx.area(sum.into()) * ggx.seen_by_both(up.into(), wi.into());
         let once = self.fresnel.evaluate(cos) * once;
         match self.losses {
@@ -91,8 +91,11 @@ impl BxDF for MicrofacetReflection<'_> {
     }
 
     fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
-        let Some(ggx) = self.ggx.rough() else { return self.smooth().sample_f(wo, uc, u) };
         let [up, _] = above(wo, wo);
+        let Some(ggx) = self.ggx.rough() else {
+            let sample = self.smooth().sample_f(up, uc, u)?;
+            return Some(BxdfSample { wi: specular_reflection::mirrored(wo), ..sample });
+        };
         let lost = self.lost(&ggx, up);
         let wi = if uc < lost {
             multiple::sample(ggx.mean_alpha(), u)
@@ -125,6 +128,6 @@ impl BxDF for MicrofacetReflection<'_> {
 
     #[inline]
     fn albedo_estimate(&self, wo: Vec3) -> f32 {
-        self.fresnel.evaluate(wo.z).max_component()
+        self.fresnel.evaluate(wo.z.abs()).max_component()
     }
 }

@@ -1,19 +1,20 @@
-//! [`GlassMaterial`]: a smooth boundary between media that do not absorb.
+//! [`GlassMaterial`]: a boundary between media that do not absorb, smooth or rough.
 
 use std::sync::Arc;
 
-use super::Read;
 use super::medium::Medium;
 use super::reflectance::reflectance;
+use super::roughness::{self, Roughness};
 use super::traits::Material;
-use crate::bxdf::{Arena, Bsdf, FresnelSpecular};
+use super::{Materials, Read};
+use crate::bxdf::{Arena, BoundaryLosses, Bsdf, FresnelMicrofacet, FresnelSpecular};
 use crate::interaction::SurfaceInteraction;
 use crate::params::{Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
 use crate::texture::{Texture, TextureHandle, TextureKey, Textures};
 
-/// A smooth boundary, as of glass, water or diamond: light is reflected or refracted by Fresnel's equations (PBRT 3rd edition, section
-/// 9.2.2).
+/// A boundary, as of glass, water or diamond: light is reflected or refracted by Fresnel's equations (PBRT 3rd edition, section 9.2.2). A
+/// smooth one is [`FresnelSpecular`], a rough one [`FresnelMicrofacet`], which loses no light between its facets.
 ///
 /// The normal points out of the medium: a mesh whose normals point inwards is a bubble. Where two media touch, the boundary is one
 /// surface with the relative index, such as 1.33 / 1.5 for water in a glass.
@@ -23,13 +24,22 @@ pub struct GlassMaterial {
     kr: TextureHandle<Spectrum>,
     kt: TextureHandle<Spectrum>,
     eta: f32,
+    /// Of a surface that is not smooth everywhere.
+    rough: Option<(Roughness, Arc<BoundaryLosses>)>,
 }
 
 impl GlassMaterial {
     /// Glass that loses no energy. `eta` is the index of refraction inside, over that outside; it must be above 0.
     pub fn new(eta: f32) -> Self {
         let white = || TextureHandle::Constant(Spectrum::WHITE);
-        Self { kr: white(), kt: white(), eta }
+        Self { kr: white(), kt: white(), eta, rough: None }
+    }
+
+    /// Makes the surface rough: frosted glass.
+    pub fn with_roughness(self, roughness: Roughness) -> Self {
+        let losses = || Arc::new(BoundaryLosses::new(self.eta, roughness.all()));
+        let rough = (!roughness.is_smooth()).then(|| (roughness.clone(), losses()));
+        Self { rough, ..self }
     }
 
     /// Scales what is reflected, by a fraction that is clamped to `[0, 1]` per band.
@@ -45,11 +55,19 @@ impl GlassMaterial {
 
 impl Material for GlassMaterial {
     fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, _: &'a Arena) -> Bsdf<'a> {
-        let mut bsdf = Bsdf::isotropic(si);
+        let mut bsdf = match &self.rough {
+            Some((roughness, _)) => roughness.bsdf(si),
+            None => Bsdf::isotropic(si),
+        };
         let [r, t] = [&self.kr, &self.kt].map(|texture| reflectance(texture.evaluate(si)));
         if r.is_some() || t.is_some() {
             let [r, t] = [r, t].map(Option::unwrap_or_default);
-            bsdf.add(FresnelSpecular::new(r, t, self.eta));
+            match &self.rough {
+                Some((rough, losses)) => {
+                    bsdf.add(FresnelMicrofacet::new(r, t, rough.at(si), losses))
+                }
+                None => bsdf.add(FresnelSpecular::new(r, t, self.eta)),
+            };
         }
         bsdf
     }
@@ -69,13 +87,14 @@ const ETA: Key<Medium> = Key::new("eta", "index of refraction inside, over that 
 /// `type = "glass"`
 pub(super) const KIND: Kind<Read> = Kind {
     name: "glass",
-    meaning: "A smooth boundary that reflects and refracts",
-    keys: &[&ETA, &KR, &KT],
+    meaning: "A boundary that reflects and refracts, smooth or rough",
+    keys: &[&ETA, &KR, &KT, roughness::KEYS[0], roughness::KEYS[1], roughness::KEYS[2]],
     read,
 };
 
-fn read(table: &Table, textures: &Textures) -> Result<Arc<dyn Material>, Fault> {
+fn read(table: &Table, textures: &Textures, _: &Materials) -> Result<Arc<dyn Material>, Fault> {
     let Medium(eta) = table.get(&ETA)?;
     let [kr, kt] = [textures.get(table, &KR)?, textures.get(table, &KT)?];
-    Ok(Arc::new(GlassMaterial::new(eta).with_kr(kr).with_kt(kt)))
+    let roughness = roughness::read(table, textures)?;
+    Ok(Arc::new(GlassMaterial::new(eta).with_kr(kr).with_kt(kt).with_roughness(roughness)))
 }

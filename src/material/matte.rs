@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::reflectance::reflectance;
-use super::{Material, Read, bump};
+use super::{Material, Materials, Read, bump};
 use crate::bxdf::{
     Arena, Bsdf, BsdfBlock, EnergyPreservingOrenNayar, LambertianReflection, Lobe, OrenNayar,
     WideBxdf,
@@ -185,7 +185,7 @@ pub(super) const KIND: Kind<Read> = Kind {
     read,
 };
 
-fn read(table: &Table, textures: &Textures) -> Result<Arc<dyn Material>, Fault> {
+fn read(table: &Table, textures: &Textures, _: &Materials) -> Result<Arc<dyn Material>, Fault> {
     let matte = MatteMaterial::new(textures.get(table, &KD)?);
     let sigma = textures.get(table, &SIGMA)?;
     let matte = match textures.find(table, &ROUGHNESS)? {

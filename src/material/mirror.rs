@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::Read;
 use super::reflectance::reflectance;
 use super::traits::Material;
+use super::{Materials, Read};
 use crate::bxdf::fresnel::Fresnel;
 use crate::bxdf::{Arena, Bsdf, SpecularReflection};
 use crate::interaction::SurfaceInteraction;
@@ -46,6 +46,6 @@ const KR: TextureKey<Spectrum> = TextureKey::of(
 pub(super) const KIND: Kind<Read> =
     Kind { name: "mirror", meaning: "A perfect mirror", keys: &[&KR], read };
 
-fn read(table: &Table, textures: &Textures) -> Result<Arc<dyn Material>, Fault> {
+fn read(table: &Table, textures: &Textures, _: &Materials) -> Result<Arc<dyn Material>, Fault> {
     Ok(Arc::new(MirrorMaterial::new(textures.get(table, &KR)?)))
 }

@@ -1,14 +1,41 @@
 //! [`Material`], the trait of materials.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::bxdf::{Arena, Bsdf, BsdfBlock};
 use crate::interaction::{HitBlock, SurfaceInteraction};
-use crate::params::{Fault, Table};
+use crate::params::{Fault, Key, Problem, Table};
 use crate::texture::Textures;
 
 /// Function that reads a kind of material from a scene file.
-pub type Read = fn(&Table, &Textures) -> Result<Arc<dyn Material>, Fault>;
+pub type Read = fn(&Table, &Textures, &Materials) -> Result<Arc<dyn Material>, Fault>;
+
+/// The materials of a scene file that stand above the one that is read, by name.
+#[derive(Clone, Default)]
+pub struct Materials(BTreeMap<String, Arc<dyn Material>>);
+
+impl Materials {
+    /// Adds a material, or replaces the one of that name.
+    pub fn add(&mut self, name: impl Into<String>, material: Arc<dyn Material>) {
+        self.0.insert(name.into(), material);
+    }
+
+    /// The material that the key's value names.
+    ///
+    /// # Errors
+    /// If there is no material of that name; and those of [`Table::get`].
+    pub fn get(&self, table: &Table, key: &Key<String>) -> Result<Arc<dyn Material>, Fault> {
+        let name = table.get(key)?;
+        self.0.get(&name).cloned().ok_or_else(|| {
+            let known = self.0.keys().map(String::as_str);
+            Fault {
+                mark: table.mark(key),
+                problem: Problem::unknown_name("material", &name, known),
+            }
+        })
+    }
+}
 
 /// The reflection properties of a surface (PBRT 3rd edition, section 9.2).
 ///

@@ -10,8 +10,8 @@ use crate::accel::InstructionSet;
 use crate::camera::Camera;
 use crate::image::Window;
 use crate::light::Light;
-use crate::material::Material;
-use crate::params::{Document, Fault, Mark, Problem, Table};
+use crate::material::{self, Material, Materials};
+use crate::params::{Document, Fault, Kind, Mark, Problem, Table};
 use crate::render::{RenderSettings, SamplerSettings};
 use crate::sampling::SamplerKind;
 use crate::scene::{Emission, FilmSettings, Scene, SceneBuilder, SceneError, View};
@@ -51,11 +51,14 @@ pub fn describe(document: &Document) -> Result<Description, Fault> {
         let texture = sections::TEXTURE.read(table, |kind, table| (kind.read)(table, &textures))?;
         textures.add(name, texture);
     }
-    let material = |(name, table): (&str, Table)| {
-        let material =
-            sections::MATERIAL.read(table, |kind, table| (kind.read)(table, &textures))?;
-        Ok((name.to_owned(), material))
-    };
+    let (mut materials, mut known) = (Vec::new(), Materials::default());
+    for (name, table) in root.tables(sections::MATERIAL.key)? {
+        let read =
+            |kind: &Kind<material::Read>, table: &Table| (kind.read)(table, &textures, &known);
+        let material = sections::MATERIAL.read(table, read)?;
+        known.add(name, material.clone());
+        materials.push((name.to_owned(), material));
+    }
     let light =
         |(_, table): (&str, Table)| sections::LIGHT.read(table, |kind, table| (kind.read)(table));
     let shape = |(name, table): (&str, Table)| Ok((name.to_owned(), shape(table)?));
@@ -65,7 +68,7 @@ pub fn describe(document: &Document) -> Result<Description, Fault> {
             sampler: sampler(root.table(sections::SAMPLER.key)?)?,
             integrator,
         },
-        materials: all(root.tables(sections::MATERIAL.key)?, material)?,
+        materials,
         lights: all(root.tables(sections::LIGHT.key)?, light)?,
         shapes: all(root.tables(sections::SHAPE.key)?, shape)?,
     })

@@ -1,0 +1,67 @@
+//! [`MixMaterial`]: two materials in one.
+
+use std::sync::Arc;
+
+use super::{Material, Materials, Read};
+use crate::bxdf::{Arena, Bsdf};
+use crate::interaction::SurfaceInteraction;
+use crate::params::{Fault, Key, Kind, Table};
+use crate::texture::{Texture, TextureHandle, TextureKey, Textures};
+
+/// The lobes of two materials, weighted (PBRT 3rd edition, section 9.2.3).
+///
+/// Where both have bump mapping, the shading normal is that of the first.
+#[derive(Clone)]
+pub struct MixMaterial {
+    both: [Arc<dyn Material>; 2],
+    amount: TextureHandle<f32>,
+}
+
+impl MixMaterial {
+    /// The first material where `amount` is 0, the second where it is 1, clamped to `[0, 1]`.
+    pub fn new(
+        first: impl Material + 'static,
+        second: impl Material + 'static,
+        amount: impl Texture<f32> + 'static,
+    ) -> Self {
+        Self { both: [first.into_arc(), second.into_arc()], amount: amount.into_handle() }
+    }
+}
+
+impl Material for MixMaterial {
+    fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, arena: &'a Arena) -> Bsdf<'a> {
+        let [first, second] = &self.both;
+        let amount = self.amount.evaluate(si).clamp(0.0, 1.0);
+        if amount == 0.0 {
+            return first.compute_scattering(si, arena);
+        }
+        if amount == 1.0 {
+            return second.compute_scattering(si, arena);
+        }
+        let mut of_second = si.clone();
+        let second = second.compute_scattering(&mut of_second, arena);
+        first.compute_scattering(si, arena).mixed(1.0 - amount, &second, amount, arena)
+    }
+}
+
+const FIRST: Key<String> = Key::new("first", "name of a material, defined above");
+const SECOND: Key<String> = Key::new("second", "name of another, defined above");
+const AMOUNT: TextureKey<f32> =
+    TextureKey::of(Key::new("amount", "weight of the second").range(0.0..=1.0).default(0.5));
+
+/// `type = "mix"`
+pub(super) const KIND: Kind<Read> = Kind {
+    name: "mix",
+    meaning: "Two materials, weighted",
+    keys: &[&FIRST, &SECOND, &AMOUNT],
+    read,
+};
+
+fn read(
+    table: &Table,
+    textures: &Textures,
+    materials: &Materials,
+) -> Result<Arc<dyn Material>, Fault> {
+    let [first, second] = [materials.get(table, &FIRST)?, materials.get(table, &SECOND)?];
+    Ok(Arc::new(MixMaterial::new(first, second, textures.get(table, &AMOUNT)?)))
+}

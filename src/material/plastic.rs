@@ -1,0 +1,77 @@
+//! [`PlasticMaterial`]: a coat over a diffuse base.
+
+use std::sync::Arc;
+
+use super::medium::Medium;
+use super::reflectance::reflectance;
+use super::roughness::{self, Roughness};
+use super::{Material, Materials, Read};
+use crate::bxdf::fresnel::Fresnel;
+use crate::bxdf::{Arena, Bsdf, CoatedDiffuse, Losses, MicrofacetReflection};
+use crate::interaction::SurfaceInteraction;
+use crate::params::{Fault, Key, Kind, Table};
+use crate::spectrum::Spectrum;
+use crate::texture::{Texture, TextureHandle, TextureKey, Textures};
+
+/// A dielectric coat, smooth or rough, over a diffuse base: plastic, varnish, glazed porcelain. Both sides look alike.
+///
+/// Unlike PBRT's (3rd edition, section 9.2.2), which adds a glossy and a diffuse lobe, it divides light between them by Fresnel's equations:
+/// [`MicrofacetReflection`] and [`CoatedDiffuse`]. A white base is white at every angle.
+#[derive(Clone)]
+pub struct PlasticMaterial {
+    kd: TextureHandle<Spectrum>,
+    eta: f32,
+    roughness: Roughness,
+    losses: Arc<Losses>,
+}
+
+impl PlasticMaterial {
+    /// A smooth coat over a base that reflects the fraction `kd` of light, clamped to `[0, 1]` per band. `eta` is the coat's index of refraction,
+    /// over that outside: at least 1.
+    pub fn new(kd: impl Texture<Spectrum> + 'static, eta: f32) -> Self {
+        let roughness = Roughness::smooth();
+        let losses = Arc::new(Losses::of_coat(eta, roughness.all()));
+        Self { kd: kd.into_handle(), eta, roughness, losses }
+    }
+
+    /// Makes the coat rough.
+    pub fn with_roughness(self, roughness: Roughness) -> Self {
+        let losses = Arc::new(Losses::of_coat(self.eta, roughness.all()));
+        Self { roughness, losses, ..self }
+    }
+}
+
+impl Material for PlasticMaterial {
+    fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, _: &'a Arena) -> Bsdf<'a> {
+        let mut bsdf = self.roughness.bsdf(si);
+        let (alpha, eta) = (self.roughness.at(si), self.eta);
+        bsdf.add(MicrofacetReflection::new(alpha, Fresnel::Dielectric { eta }));
+        if let Some(r) = reflectance(self.kd.evaluate(si)) {
+            bsdf.add(CoatedDiffuse::new(r, alpha, eta, &self.losses));
+        }
+        bsdf
+    }
+}
+
+const KD: TextureKey<Spectrum> = TextureKey::of(
+    Key::new("kd", "fraction of light that the base reflects")
+        .range(0.0..=1.0)
+        .default(Spectrum::splat(0.5)),
+);
+const ETA: Key<Medium> = Key::new("eta", "index of refraction of the coat, over that outside")
+    .range(1.0..=10.0)
+    .default(Medium(1.5));
+
+/// `type = "plastic"`
+pub(super) const KIND: Kind<Read> = Kind {
+    name: "plastic",
+    meaning: "A clear coat, smooth or rough, over a diffuse base",
+    keys: &[&KD, &ETA, roughness::KEYS[0], roughness::KEYS[1], roughness::KEYS[2]],
+    read,
+};
+
+fn read(table: &Table, textures: &Textures, _: &Materials) -> Result<Arc<dyn Material>, Fault> {
+    let Medium(eta) = table.get(&ETA)?;
+    let plastic = PlasticMaterial::new(textures.get(table, &KD)?, eta);
+    Ok(Arc::new(plastic.with_roughness(roughness::read(table, textures)?)))
+}
