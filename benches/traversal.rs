@@ -28,7 +28,7 @@ use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::interaction::SurfaceInteraction;
 use lobe::sampling::cosine_hemisphere;
 use lobe::shape::read_obj;
-use sculpt_dragon::{PROMISES, sculpt, write_obj};
+use sculpt_dragon::{PROMISES, Subject, sculpt, write_obj};
 
 /// Pixels along each side of the image.
 const SIDE: u32 = 512;
@@ -85,10 +85,10 @@ fn large_dragon() -> TriangleMesh {
 /// Sculpts a dragon into a file, which is renamed into place when it is complete.
 fn sculpt_to(file: &Path, triangles: usize) -> Result<(), Box<dyn Error>> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let dragon = sculpt(triangles, threads).map_err(|fault| fault.to_string())?;
+    let dragon = sculpt(Subject::Dragon, triangles, threads).map_err(|fault| fault.to_string())?;
     let unfinished: PathBuf = file.with_extension("unfinished");
     let mut out = BufWriter::new(fs::File::create(&unfinished)?);
-    write_obj(&mut out, &dragon.mesh, &dragon.normals)?;
+    write_obj(&mut out, Subject::Dragon.title(), &dragon.mesh, &dragon.normals)?;
     out.flush()?;
     fs::rename(unfinished, file)?;
     let quality = dragon.quality;

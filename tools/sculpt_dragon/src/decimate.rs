@@ -21,9 +21,6 @@ use crate::mesh::{Mesh, quality};
 use crate::parallel;
 use crate::quadric::Quadric;
 
-/// Weight of a vertex's own place against its planes. It keeps the minimum well defined on flat
-/// ground and spreads the vertices evenly there.
-const STAY: f64 = 1e-5;
 /// Least quality of a triangle that a collapse may make, 1 being equilateral.
 const QUALITY: f64 = 0.08;
 /// Marks the corners of a removed triangle.
@@ -74,18 +71,21 @@ struct Decimation<'a> {
 /// Collapses edges of the closed `mesh` until at most `target` triangles remain, or no collapse is
 /// allowed.
 ///
-/// Errors about a place count `weight` times, so that triangles gather where they are wanted.
+/// Errors about a place count `weight` times, so that triangles gather where they are wanted. `stay`
+/// is the weight of a vertex's own place against its planes. It keeps the minimum well defined on
+/// flat ground and spreads the vertices evenly there.
 pub fn decimate(
     mesh: &mut Mesh,
     target: usize,
     weight: impl Fn(DVec3) -> f64 + Sync,
+    stay: f64,
     threads: usize,
 ) -> Result<(), Defect> {
     if mesh.triangles.len() <= target {
         return Ok(());
     }
     let mut remaining = mesh.triangles.len();
-    let mut d = Decimation::new(mesh, &weight, threads)?;
+    let mut d = Decimation::new(mesh, &weight, stay, threads)?;
     while remaining > target
         && let Some(candidate) = d.heap.pop()
     {
@@ -102,12 +102,15 @@ impl Decimation<'_> {
     fn new<'a>(
         mesh: &'a mut Mesh,
         weight: &(impl Fn(DVec3) -> f64 + Sync),
+        stay: f64,
         threads: usize,
     ) -> Result<Decimation<'a>, Defect> {
         let edges = HalfEdges::pair(mesh)?;
         let stamps = vec![0; mesh.positions.len()];
         let mut quadrics = vec![Quadric::default(); mesh.positions.len()];
-        parallel::fill(&mut quadrics, threads, |v| vertex_quadric(mesh, &edges, v as u32, weight));
+        parallel::fill(&mut quadrics, threads, |v| {
+            vertex_quadric(mesh, &edges, v as u32, weight, stay)
+        });
         let mut d = Decimation { mesh, edges, quadrics, stamps, heap: BinaryHeap::new() };
         let mut costs = vec![f32::NAN; d.edges.twin.len()];
         parallel::fill(&mut costs, threads, |e| {
@@ -233,6 +236,7 @@ fn vertex_quadric(
     edges: &HalfEdges,
     v: u32,
     weight: impl Fn(DVec3) -> f64,
+    stay: f64,
 ) -> Quadric {
     let p = mesh.positions[v as usize];
     let weight = weight(p);
@@ -241,7 +245,7 @@ fn vertex_quadric(
         let normal = mesh.normal2(mesh.triangles[e as usize / 3]);
         let share = weight * 0.5 * normal.length();
         sum = sum.plus(&Quadric::plane(p, normal.normalize_or_zero(), share));
-        sum = sum.plus(&Quadric::point(p, STAY * share));
+        sum = sum.plus(&Quadric::point(p, stay * share));
     }
     sum
 }

@@ -1,8 +1,8 @@
-//! Sculpts the dragon of `assets/dragon.obj`.
+//! Sculpts the dragon of `assets/dragon.obj` and the object of `assets/object.obj`.
 //!
-//! The dragon is a field: tubes about splines, cones and ellipsoids, smoothly joined, with scales
-//! laid out in the tubes' own coordinates, arc length and angle (`anatomy`). The steps to the
-//! mesh:
+//! Both are fields (`anatomy`, `object`): tubes about splines, cones, ellipsoids and planes,
+//! smoothly joined; the dragon has scales, laid out in the tubes' own coordinates, arc length and
+//! angle. The steps to the mesh:
 //! - marching tetrahedra on a body-centred cubic lattice (`lattice`; Chan & Purisima 1998);
 //! - sliding and Newton projection onto the field's surface (`relax`);
 //! - decimation by quadric error under the link condition (`decimate`; Garland & Heckbert 1997);
@@ -12,9 +12,9 @@
 //! triangle and unit normals are checked on the rounded numbers at the end (`verify`); a mesh that
 //! fails is not written. The bytes do not depend on the number of threads.
 //!
-//! Measured: 100,000 triangles take 23 s of processor time and 0.25 GB, 2,000,000 take 38 s and
-//! 0.42 GB, 5,000,000 take 117 s and 1.0 GB. Sampling and relaxation run on all threads, decimation
-//! on one.
+//! Measured on the dragon: 100,000 triangles take 23 s of processor time and 0.25 GB, 2,000,000 take
+//! 38 s and 0.42 GB, 5,000,000 take 117 s and 1.0 GB. Sampling and relaxation run on all threads,
+//! decimation on one.
 
 mod anatomy;
 mod curve;
@@ -24,6 +24,7 @@ mod halfedge;
 mod lattice;
 mod mesh;
 mod obj;
+mod object;
 mod parallel;
 mod quadric;
 mod relax;
@@ -31,10 +32,12 @@ mod scales;
 mod sculpt;
 mod sculpture;
 mod shape;
+mod subject;
 mod tube;
 mod verify;
 
 pub use mesh::Mesh;
 pub use obj::write as write_obj;
-pub use sculpt::{Dragon, sculpt};
+pub use sculpt::{Sculpted, sculpt};
+pub use subject::Subject;
 pub use verify::{Fault, PROMISES};

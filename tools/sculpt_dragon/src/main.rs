@@ -1,7 +1,7 @@
 //! The sculptor's command line:
 //!
 //! ```text
-//! cargo run --release -p sculpt_dragon -- [--triangles N] [-o FILE]
+//! cargo run --release -p sculpt_dragon -- [dragon|object] [--triangles N] [-o FILE]
 //! ```
 
 mod options;
@@ -14,7 +14,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use options::Request;
-use sculpt_dragon::{PROMISES, sculpt, write_obj};
+use sculpt_dragon::{PROMISES, Subject, sculpt, write_obj};
 
 fn main() -> ExitCode {
     match options::parse(std::env::args().skip(1)) {
@@ -22,7 +22,7 @@ fn main() -> ExitCode {
             println!("{}", options::HELP);
             ExitCode::SUCCESS
         }
-        Ok(Request::Sculpt { triangles, file }) => match run(triangles, &file) {
+        Ok(Request::Sculpt { subject, triangles, file }) => match run(subject, triangles, &file) {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => fail(&error.to_string()),
         },
@@ -36,16 +36,17 @@ fn fail(sentence: &str) -> ExitCode {
 }
 
 /// Sculpts, writes and tells.
-fn run(triangles: usize, file: &Path) -> Result<(), Box<dyn Error>> {
+fn run(subject: Subject, triangles: usize, file: &Path) -> Result<(), Box<dyn Error>> {
     let start = Instant::now();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let dragon = sculpt(triangles, threads).map_err(|fault| format!("nothing written: {fault}"))?;
+    let sculpted =
+        sculpt(subject, triangles, threads).map_err(|fault| format!("nothing written: {fault}"))?;
     let name = |error| format!("cannot write {}: {error}", file.display());
     let mut out = BufWriter::new(File::create(file).map_err(name)?);
-    write_obj(&mut out, &dragon.mesh, &dragon.normals).map_err(name)?;
+    write_obj(&mut out, subject.title(), &sculpted.mesh, &sculpted.normals).map_err(name)?;
     out.flush().map_err(name)?;
 
-    let mesh = &dragon.mesh;
+    let mesh = &sculpted.mesh;
     let (low, high) = mesh.bounds();
     println!(
         "{}: {} vertices, {} triangles",
@@ -61,7 +62,7 @@ fn run(triangles: usize, file: &Path) -> Result<(), Box<dyn Error>> {
         "area {:.2}, volume {:.3}, worst triangle quality {:.3}",
         mesh.area(),
         mesh.volume(),
-        dragon.quality
+        sculpted.quality
     );
     println!("checked: {}", PROMISES);
     println!("{:.1} s on {threads} threads", start.elapsed().as_secs_f64());

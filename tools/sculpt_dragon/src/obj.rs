@@ -21,10 +21,10 @@ pub fn round(mesh: &mut Mesh) {
     }
 }
 
-/// Writes positions, one normal per vertex, and faces `a//a b//b c//c`.
-pub fn write(out: &mut impl Write, mesh: &Mesh, normals: &[DVec3]) -> io::Result<()> {
+/// Writes a title, positions, one normal per vertex, and faces `a//a b//b c//c`.
+pub fn write(out: &mut impl Write, title: &str, mesh: &Mesh, normals: &[DVec3]) -> io::Result<()> {
     // The place where the sculptor first stood: changing it would change the bytes of the shipped file.
-    writeln!(out, "# Dragon, sculpted from signed distance functions by tools/sculpt_dragon.")?;
+    writeln!(out, "# {title}, sculpted from signed distance functions by tools/sculpt_dragon.")?;
     writeln!(out, "# {} vertices, {} triangles", mesh.positions.len(), mesh.triangles.len())?;
     for p in &mesh.positions {
         writeln!(out, "v {:.6} {:.6} {:.6}", p.x, p.y, p.z)?;

@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use crate::anatomy;
 use crate::decimate::decimate;
 use crate::field::Field;
 use crate::lattice;
@@ -10,6 +9,7 @@ use crate::mesh::{Mesh, quality};
 use crate::obj;
 use crate::parallel;
 use crate::relax::relax;
+use crate::subject::Subject;
 use crate::verify::{Fault, verify};
 
 /// Triangles of the lattice's mesh times the square of its step (measured).
@@ -19,11 +19,8 @@ const FEWEST: usize = 1_300_000;
 /// How many more triangles to begin with than were asked for.
 const SURPLUS: f64 = 1.25;
 
-/// Extent of the finished dragon along x.
-const WIDTH: f64 = 4.2;
-
-/// The finished dragon.
-pub struct Dragon {
+/// The finished sculpture.
+pub struct Sculpted {
     /// Its surface, rounded to what the file holds.
     pub mesh: Mesh,
     /// Unit normals of the vertices.
@@ -32,30 +29,31 @@ pub struct Dragon {
     pub quality: f64,
 }
 
-/// Sculpts a dragon of about `triangles` triangles.
-pub fn sculpt(triangles: usize, threads: usize) -> Result<Dragon, Fault> {
-    let sculpture = anatomy::dragon();
-    let field = Field::new(&sculpture, anatomy::LOW, anatomy::HIGH, threads);
+/// Sculpts `subject` in about `triangles` triangles.
+pub fn sculpt(subject: Subject, triangles: usize, threads: usize) -> Result<Sculpted, Fault> {
+    let model = subject.model();
+    let field = Field::new(&model.sculpture, model.low, model.high, threads);
     let wanted = FEWEST.max((triangles as f64 * SURPLUS) as usize);
     let h = (DENSITY / wanted as f64).sqrt();
     let mut mesh = lattice::extract(&field, h, threads);
     mesh.keep_largest_component();
     relax(&mut mesh, &field, h, 3, threads);
-    decimate(&mut mesh, triangles, anatomy::interest, threads).map_err(Fault::Surface)?;
+    decimate(&mut mesh, triangles, model.interest, model.stay, threads).map_err(Fault::Surface)?;
 
     let edge = (mesh.area() / mesh.triangles.len() as f64 * 2.3).sqrt();
     let normals = field_normals(&mesh, &field, 0.2 * edge, threads);
-    stage(&mut mesh);
+    stage(&mut mesh, model.width);
     obj::round(&mut mesh);
-    let dragon = Dragon { quality: worst_quality(&mesh), mesh, normals };
-    verify(&dragon.mesh, &dragon.normals)?;
-    Ok(dragon)
+    let sculpted = Sculpted { quality: worst_quality(&mesh), mesh, normals };
+    verify(&sculpted.mesh, &sculpted.normals)?;
+    Ok(sculpted)
 }
 
-/// Scales the mesh to its width, sets the feet on y = 0 and the middle of the box over the origin.
-fn stage(mesh: &mut Mesh) {
+/// Scales the mesh to `width` along x, sets its lowest point on y = 0 and the middle of the box over
+/// the origin.
+fn stage(mesh: &mut Mesh, width: f64) {
     let (low, high) = mesh.bounds();
-    let scale = WIDTH / (high.x - low.x);
+    let scale = width / (high.x - low.x);
     let origin = low.midpoint(high).with_y(low.y);
     for p in &mut mesh.positions {
         *p = scale * (*p - origin);

@@ -66,9 +66,9 @@ impl Sculpture {
         self.push(Shape::Ellipsoid { centre, frame, radii }, (centre, f64::INFINITY));
     }
 
-    /// Adds everything below a height.
-    pub fn below(&mut self, height: f64) {
-        self.push(Shape::Below { height }, (DVec3::ZERO, f64::INFINITY));
+    /// Adds everything beyond the plane at `offset` along the unit vector `normal`.
+    pub fn beyond(&mut self, normal: DVec3, offset: f64) {
+        self.push(Shape::Beyond { normal, offset }, (DVec3::ZERO, f64::INFINITY));
     }
 
     fn push(&mut self, shape: Shape, ball: (DVec3, f64)) {
@@ -93,7 +93,7 @@ impl Sculpture {
             Shape::Tube { tube, span } => self.tubes[tube].distance(span, p),
             Shape::Cone { a, b, ra, rb } => round_cone(p, a, b, ra, rb),
             Shape::Ellipsoid { centre, ref frame, radii } => ellipsoid(p, centre, frame, radii),
-            Shape::Below { height } => p.y - height,
+            Shape::Beyond { normal, offset } => offset - normal.dot(p),
         }
     }
 

@@ -13,8 +13,8 @@ pub enum Shape {
     Cone { a: DVec3, b: DVec3, ra: f64, rb: f64 },
     /// An ellipsoid; the columns of `frame` are its unit axes.
     Ellipsoid { centre: DVec3, frame: DMat3, radii: DVec3 },
-    /// Everything below a height.
-    Below { height: f64 },
+    /// Everything beyond the plane at `offset` along the unit vector `normal`.
+    Beyond { normal: DVec3, offset: f64 },
 }
 
 /// Distance to the hull of the balls (a, ra) and (b, rb).

@@ -36,7 +36,7 @@ pub fn dragon() -> Sculpture {
     }
     // The ground cuts the soles flat.
     s.group(Join::Carve, 0.01, 0.0);
-    s.below(0.0);
+    s.beyond(DVec3::NEG_Y, 0.0);
     s
 }
 
