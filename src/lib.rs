@@ -37,6 +37,7 @@
 pub mod accel;
 pub mod bxdf;
 pub mod camera;
+pub mod check;
 mod clock;
 mod file;
 pub mod film;

@@ -150,6 +150,11 @@ impl<'a> Bsdf<'a> {
         self.rejected.get()
     }
 
+    /// Flags of all lobes together.
+    pub(crate) fn all_flags(&self) -> BxdfFlags {
+        self.lobes.iter().fold(BxdfFlags::empty(), |all, (_, flags)| all | *flags)
+    }
+
     /// Whether all lobes are specular: light samples, which are given directions, find nothing.
     #[inline]
     pub(super) fn is_specular(&self) -> bool {

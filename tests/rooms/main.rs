@@ -27,7 +27,7 @@ use imports::{Found, imports};
 use modules::Files;
 
 /// The rooms from the ground up.
-const ROOMS: [&str; 23] = [
+const ROOMS: [&str; 24] = [
     "simd",
     "spectrum",
     "clock",
@@ -41,6 +41,7 @@ const ROOMS: [&str; 23] = [
     "texture",
     "bxdf",
     "material",
+    "check",
     "light",
     "accel",
     "camera",

@@ -1,0 +1,149 @@
+//! [`faulty`]: lobes that are wrong on purpose, to check the check.
+
+use std::f32::consts::FRAC_1_PI;
+
+use glam::{Vec2, Vec3};
+
+use super::Fault;
+use crate::bxdf::{
+    BxDF, BxdfFlags, BxdfSample, EnergyPreservingOrenNayar, FresnelSpecular, LambertianReflection,
+};
+use crate::sampling::uniform_hemisphere;
+use crate::spectrum::Spectrum;
+
+/// A lobe that is wrong on purpose. All promise to return all light.
+pub struct Faulty {
+    /// What is wrong.
+    pub name: &'static str,
+    /// The faults one of which has to be found.
+    pub expected: &'static [Fault],
+    /// The lobe.
+    pub lobe: Box<dyn BxDF>,
+}
+
+/// A right lobe, and what is put wrong in it.
+struct Broken {
+    lobe: Box<dyn BxDF>,
+    fault: Break,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Break {
+    Density,
+    DensityOfSample,
+    Loss,
+    OneSided,
+    GrazingNan,
+    AllFlags,
+    EtaSquared,
+    BelowHorizon,
+    FresnelTwice,
+    ValueOfSample,
+    HalfSampled,
+}
+
+/// Lobes that are wrong, each in another way.
+pub fn faulty() -> Vec<Faulty> {
+    let white = Spectrum::WHITE;
+    let diffuse = || -> Box<dyn BxDF> { Box::new(LambertianReflection::new(white)) };
+    let rough = || -> Box<dyn BxDF> { Box::new(EnergyPreservingOrenNayar::new(white, 0.7)) };
+    let glass = || -> Box<dyn BxDF> { Box::new(FresnelSpecular::new(white, white, 1.5)) };
+    let all: [(_, _, &[Fault], _); 11] = [
+        (
+            "a pdf of uniform directions for cosine-weighted samples",
+            Break::Density,
+            &[Fault::Distribution],
+            diffuse(),
+        ),
+        ("samples with another pdf than pdf()", Break::DensityOfSample, &[Fault::Density], rough()),
+        ("samples with another f than f()", Break::ValueOfSample, &[Fault::Value], rough()),
+        ("lost energy", Break::Loss, &[Fault::Loss], rough()),
+        ("a factor of one direction only", Break::OneSided, &[Fault::Reciprocity], diffuse()),
+        ("NaN at grazing angles", Break::GrazingNan, &[Fault::Invalid], diffuse()),
+        ("flags of the lobe instead of the event", Break::AllFlags, &[Fault::Event], glass()),
+        (
+            "a forgotten factor 1/eta²",
+            Break::EtaSquared,
+            &[Fault::Gain, Fault::Reciprocity],
+            glass(),
+        ),
+        ("samples below the horizon", Break::BelowHorizon, &[Fault::Side], diffuse()),
+        (
+            "a coat that counts its Fresnel factor twice",
+            Break::FresnelTwice,
+            &[Fault::Loss],
+            glass(),
+        ),
+        ("a part of f that is never sampled", Break::HalfSampled, &[Fault::Albedo], diffuse()),
+    ];
+    all.map(|(name, fault, expected, lobe)| Faulty {
+        name,
+        expected,
+        lobe: Box::new(Broken { lobe, fault }),
+    })
+    .into()
+}
+
+impl Broken {
+    fn is(&self, fault: Break) -> bool {
+        self.fault == fault
+    }
+}
+
+impl BxDF for Broken {
+    fn flags(&self) -> BxdfFlags {
+        self.lobe.flags()
+    }
+
+    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+        let f = self.lobe.f(wo, wi);
+        match self.fault {
+            Break::Loss => f * 0.98,
+            // Normalised, so that nothing is lost.
+            Break::OneSided => f * (1.5 * wi.z.abs()),
+            Break::GrazingNan if wi.z.abs() < 1e-3 => Spectrum::splat(f32::NAN),
+            _ => f,
+        }
+    }
+
+    fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
+        let mut sample = self.lobe.sample_f(wo, uc, u)?;
+        match self.fault {
+            Break::HalfSampled if sample.wi.x < 0.0 => return None,
+            Break::BelowHorizon if u.x < 0.01 => sample.wi.z = -sample.wi.z,
+            Break::DensityOfSample => sample.pdf *= 1.02,
+            Break::ValueOfSample => {
+                sample.f = self.f(wo, sample.wi) * (1.0 + 0.1 * (sample.wi.z.abs() - 0.5));
+                return Some(sample);
+            }
+            Break::AllFlags => sample.flags |= self.flags(),
+            Break::EtaSquared => sample.f = sample.f * (sample.eta * sample.eta),
+            Break::FresnelTwice if sample.flags.contains(BxdfFlags::REFLECTION) => {
+                sample.f = sample.f * sample.pdf;
+            }
+            _ => {}
+        }
+        if !sample.is_specular() {
+            sample.f = self.f(wo, sample.wi);
+            if !self.is(Break::DensityOfSample) {
+                sample.pdf = self.pdf(wo, sample.wi);
+            }
+        }
+        (sample.pdf > 0.0).then_some(sample)
+    }
+
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        match self.fault {
+            Break::Density => {
+                if (wo.z > 0.0) == (wi.z > 0.0) {
+                    uniform_hemisphere::pdf()
+                } else {
+                    0.0
+                }
+            }
+            Break::BelowHorizon => wi.z.abs() * FRAC_1_PI,
+            Break::HalfSampled if wi.x < 0.0 => 0.0,
+            _ => self.lobe.pdf(wo, wi),
+        }
+    }
+}

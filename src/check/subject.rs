@@ -1,0 +1,68 @@
+//! [`Subject`]: what is checked, a lobe or a sum of lobes.
+
+use glam::{Vec2, Vec3};
+
+use crate::bxdf::{Bsdf, BxDF, BxdfFlags, BxdfSample};
+use crate::sampling::Random;
+use crate::spectrum::Spectrum;
+
+/// A scattering function in shading coordinates.
+pub trait Subject {
+    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum;
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32;
+    fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample>;
+    fn flags(&self) -> BxdfFlags;
+    /// Whether flags of samples are the lobe's own.
+    fn sets_flags(&self) -> bool;
+}
+
+/// A lobe. On sides that its flags exclude it is black, as in a [`Bsdf`].
+pub struct Local<'a>(pub &'a dyn BxDF);
+
+impl Subject for Local<'_> {
+    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+        let reflects = (wo.z > 0.0) == (wi.z > 0.0);
+        let side = if reflects { BxdfFlags::REFLECTION } else { BxdfFlags::TRANSMISSION };
+        if self.flags().contains(side) { self.0.f(wo, wi) } else { Spectrum::BLACK }
+    }
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        self.0.pdf(wo, wi)
+    }
+    fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
+        self.0.sample_f(wo, uc, u)
+    }
+    fn flags(&self) -> BxdfFlags {
+        self.0.flags()
+    }
+    fn sets_flags(&self) -> bool {
+        true
+    }
+}
+
+impl Subject for Bsdf<'_> {
+    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+        let [wo, wi] = [wo, wi].map(|w| self.frame().to_world(w));
+        Bsdf::f(self, wo, wi, BxdfFlags::all())
+    }
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        let [wo, wi] = [wo, wi].map(|w| self.frame().to_world(w));
+        Bsdf::pdf(self, wo, wi, BxdfFlags::all())
+    }
+    fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
+        let wo = self.frame().to_world(wo);
+        let mut sample = Bsdf::sample_f(self, wo, uc, u, BxdfFlags::all())?;
+        sample.wi = self.frame().to_local(sample.wi);
+        Some(sample)
+    }
+    fn flags(&self) -> BxdfFlags {
+        self.all_flags()
+    }
+    fn sets_flags(&self) -> bool {
+        false
+    }
+}
+
+/// Sample values for an event.
+pub fn values(random: &mut Random) -> (f32, Vec2) {
+    (random.next(), Vec2::new(random.next(), random.next()))
+}
