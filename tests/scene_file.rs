@@ -324,7 +324,7 @@ fn missing_keys() {
     all_refused(&[
         (
             "[material.\"\"]\nkd = [0, 0, 0]",
-            "s.toml:1:1: [material.\"\"] lacks `type`, expected \"matte\", \"mirror\" or \"glass\"",
+            "s.toml:1:1: [material.\"\"] lacks `type`, expected \"matte\", \"mirror\", \"glass\", \"thin-glass\", \"metal\", \"plastic\", \"translucent\", \"retro\" or \"mix\"",
         ),
         ("[texture.t]", "s.toml:1:1: [texture.t] lacks `type`, expected \"constant\""),
         (
@@ -333,7 +333,7 @@ fn missing_keys() {
         ),
         (
             "[material.m]",
-            "s.toml:1:1: [material.m] lacks `type`, expected \"matte\", \"mirror\" or \"glass\"",
+            "s.toml:1:1: [material.m] lacks `type`, expected \"matte\", \"mirror\", \"glass\", \"thin-glass\", \"metal\", \"plastic\", \"translucent\", \"retro\" or \"mix\"",
         ),
         (
             "[light.l]",
@@ -567,7 +567,7 @@ fn names_are_escaped_and_shortened() {
         (
             &format!("[material.{long}]\ntype = \"{long}\""),
             &format!(
-                "s.toml:2:8: `material.{part}.type` is \"{}…{}\", expected \"matte\", \"mirror\" or \"glass\"",
+                "s.toml:2:8: `material.{part}.type` is \"{}…{}\", expected \"matte\", \"mirror\", \"glass\", \"thin-glass\", \"metal\", \"plastic\", \"translucent\", \"retro\" or \"mix\"",
                 "k".repeat(29),
                 "k".repeat(28)
             ),

@@ -19,6 +19,8 @@ struct Cell {
 pub struct Cells {
     nodes: Vec<Node>,
     cells: Vec<Cell>,
+    /// Of each cell.
+    samples: Vec<Vec<DVec2>>,
 }
 
 enum Node {
@@ -27,13 +29,16 @@ enum Node {
     Split(usize, f64, [usize; 2]),
 }
 
-/// Cells of each hemisphere.
-const DEPTH: u32 = 8;
+/// Levels of the tree of each hemisphere.
+const DEPTH: u32 = 12;
+
+/// Cells in a row that are next to each other on the sphere, for tests that need more samples in each.
+pub const GROUP: usize = 16;
 
 impl Cells {
     /// Divides the sphere so that the cells of a hemisphere hold equally many of its `samples`.
     pub fn new(samples: &[Vec3]) -> Self {
-        let mut cells = Self { nodes: Vec::new(), cells: Vec::new() };
+        let mut cells = Self { nodes: Vec::new(), cells: Vec::new(), samples: Vec::new() };
         for is_below in [false, true] {
             let within = samples.iter().filter(|w| (w.z < 0.0) == is_below);
             let mut points: Vec<DVec2> = within.map(|&w| point(w)).collect();
@@ -48,6 +53,7 @@ impl Cells {
         self.nodes.push(Node::Leaf(self.cells.len()));
         if depth == 0 {
             self.cells.push(cell);
+            self.samples.push(points.to_vec());
             return index;
         }
         // Across the longer side of the cell on the sphere: r dφ against dq / r.
@@ -90,34 +96,69 @@ impl Cells {
 
     /// The integral of `f` over a cell.
     pub fn integrate(&self, cell: usize, f: &impl Fn(Vec3) -> Values) -> Values {
-        let cell = self.cells[cell];
-        let coarse = gauss(cell, f);
-        refine(cell, coarse, f, 10)
+        let (points, cell) = (&self.samples[cell], self.cells[cell]);
+        let peaks: Vec<_> =
+            points.iter().map(|&at| (at, f(direction(cell.is_below, at)))).collect();
+        refine(cell, gauss(cell, f), &peaks, f, 30)
+    }
+}
+
+/// What is known about a cell from the points of Gauss's rule.
+#[derive(Clone, Copy)]
+struct Rule {
+    integral: Values,
+    /// Whether values at the points differ so much that there may be more between them.
+    is_uneven: bool,
+    /// The largest values.
+    high: Values,
+}
+
+impl Rule {
+    /// Whether a value in the cell is far above those at the points.
+    fn is_below(&self, cell: Cell, values: &Values) -> bool {
+        let size = cell.high - cell.low;
+        let area = size.x * size.y;
+        (0..4).any(|i| values[i] > 4.0 * self.high[i] && values[i] * area > 1e-6)
     }
 }
 
 /// The integral of a cell whose estimate is `coarse`, from those of its quarters.
-fn refine(cell: Cell, coarse: Values, f: &impl Fn(Vec3) -> Values, depth: u32) -> Values {
+///
+/// `peaks` are values at samples: they tell of what lies between the points of the rule.
+fn refine(
+    cell: Cell,
+    coarse: Rule,
+    peaks: &[(DVec2, Values)],
+    f: &impl Fn(Vec3) -> Values,
+    depth: u32,
+) -> Values {
     let middle = 0.5 * (cell.low + cell.high);
-    let mut parts = [(cell, [0.0; 4]); 4];
+    let mut parts = [(cell, coarse); 4];
     let mut fine = [0.0; 4];
-    for (i, (part, value)) in parts.iter_mut().enumerate() {
+    for (i, (part, rule)) in parts.iter_mut().enumerate() {
         for axis in 0..2 {
             match i >> axis & 1 {
                 0 => part.high[axis] = middle[axis],
                 _ => part.low[axis] = middle[axis],
             }
         }
-        *value = gauss(*part, f);
-        fine = sum(fine, *value);
+        *rule = gauss(*part, f);
+        fine = sum(fine, rule.integral);
     }
-    let is_good = |i: usize| (fine[i] - coarse[i]).abs() <= 1e-6 + 1e-4 * fine[i].abs();
-    if depth == 0 || (0..4).all(is_good) || fine.iter().any(|x| !x.is_finite()) {
+    let is_good = |i: usize| (fine[i] - coarse.integral[i]).abs() <= 1e-7 + 1e-4 * fine[i].abs();
+    let is_even = !coarse.is_uneven
+        && parts.iter().all(|(_, rule)| !rule.is_uneven)
+        && peaks.iter().all(|(_, values)| !coarse.is_below(cell, values));
+    let is_done = is_even && (0..4).all(is_good) || fine.iter().any(|x| !x.is_finite());
+    if depth == 0 || is_done {
         return fine;
     }
-    parts
-        .into_iter()
-        .fold([0.0; 4], |total, (part, value)| sum(total, refine(part, value, f, depth - 1)))
+    let refined = |total, (part, rule): (Cell, Rule)| {
+        let is_within = |at: DVec2| at.cmpge(part.low).all() && at.cmplt(part.high).all();
+        let within: Vec<_> = peaks.iter().copied().filter(|(at, _)| is_within(*at)).collect();
+        sum(total, refine(part, rule, &within, f, depth - 1))
+    };
+    parts.into_iter().fold([0.0; 4], refined)
 }
 
 fn sum(a: Values, b: Values) -> Values {
@@ -125,22 +166,35 @@ fn sum(a: Values, b: Values) -> Values {
 }
 
 /// Gauss's rule with three points along each axis.
-fn gauss(cell: Cell, f: &impl Fn(Vec3) -> Values) -> Values {
+fn gauss(cell: Cell, f: &impl Fn(Vec3) -> Values) -> Rule {
     const POINTS: [[f64; 2]; 3] = [
         [0.112_701_665_379_258_3, 5.0 / 18.0],
         [0.5, 8.0 / 18.0],
         [0.887_298_334_620_741_7, 5.0 / 18.0],
     ];
     let size = cell.high - cell.low;
-    let mut total = [0.0; 4];
+    let area = size.x * size.y;
+    let (mut integral, mut low, mut high) = ([0.0; 4], [f64::INFINITY; 4], [0.0; 4]);
     for [x, weight_x] in POINTS {
         for [y, weight_y] in POINTS {
-            let w = direction(cell.is_below, cell.low + size * DVec2::new(x, y));
-            let weight = weight_x * weight_y * size.x * size.y;
-            total = sum(total, f(w).map(|value| value * weight));
+            let values = f(direction(cell.is_below, cell.low + size * DVec2::new(x, y)));
+            for i in 0..4 {
+                integral[i] += weight_x * weight_y * area * values[i];
+                low[i] = values[i].min(low[i]);
+                high[i] = values[i].max(high[i]);
+            }
         }
     }
-    total
+    let is_uneven = (0..4).any(|i| high[i] > 32.0 * low[i] && high[i] * area > 1e-6);
+    let rule = Rule { integral, is_uneven, high };
+    let corners = [
+        cell.low,
+        cell.high,
+        DVec2::new(cell.low.x, cell.high.y),
+        DVec2::new(cell.high.x, cell.low.y),
+    ];
+    let is_below = |at: DVec2| rule.is_below(cell, &f(direction(cell.is_below, at)));
+    Rule { is_uneven: is_uneven || corners.into_iter().any(is_below), ..rule }
 }
 
 /// (1 - |cos θ|, φ) of a direction: precise near the poles.
