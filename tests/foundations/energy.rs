@@ -298,7 +298,7 @@ fn returned(lobe: &dyn BxDF, wo: Vec3) -> f64 {
 fn rough_surfaces_lose_nothing() {
     let white = Spectrum::WHITE;
     let cosines = [1.0, 0.9, 0.6, 0.3, 0.1, 0.03, 0.003, 1e-4, -1.0, -0.7, -0.2, -0.01];
-    let alphas = [0.0, 1e-4, 1e-3, 0.02, 0.2, 0.6, 1.0];
+    let alphas = [0.0, 1e-4, 0.02, 0.2, 0.6, 1.0];
     let any = Losses::of_mirrors(Roughnesses::Any);
     parallel(alphas.len() * 2, |i| {
         let alpha = alphas[i / 2];
@@ -315,7 +315,7 @@ fn rough_surfaces_lose_nothing() {
         held(&facets.and_multiple(&losses, white), 1e-3, "metal");
         let bound = if i % 2 == 0 { 1e-3 } else { 0.06 };
         held(&facets.and_multiple(&any, white), bound, "metal, losses of any roughness");
-        for eta in [1.5, 1.05, 2.4] {
+        for eta in [1.5, 1.05] {
             let losses = BoundaryLosses::new(eta, constant);
             let glass = FresnelMicrofacet::new(white, white, alpha, &losses);
             held(&glass, if i % 2 == 0 { 1e-3 } else { 2e-3 }, &format!("glass {eta}"));

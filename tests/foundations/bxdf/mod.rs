@@ -79,8 +79,8 @@ fn coat(r: Spectrum, alpha: [f32; 2], eta: f32) -> [Box<dyn BxDF>; 2] {
 const ALPHAS: [[f32; 2]; 6] =
     [[0.01, 0.01], [0.03, 0.03], [0.3, 0.3], [1.0, 1.0], [0.1, 0.5], [1.0, 0.02]];
 
-/// The crate's lobes, the wide ones first.
-fn all_lobes() -> Vec<(String, Box<dyn BxDF>)> {
+/// The crate's lobes, the glossy ones with these roughnesses.
+fn all_lobes(alphas: &[[f32; 2]]) -> Vec<(String, Box<dyn BxDF>)> {
     let mut all: Vec<(String, Box<dyn BxDF>)> =
         lobes().into_iter().map(|(name, lobe)| (name.to_owned(), lobe)).collect();
     let gold = Fresnel::Conductor { eta: [0.2, 0.4, 1.3], k: [3.2, 2.5, 1.9] };
@@ -92,7 +92,7 @@ fn all_lobes() -> Vec<(String, Box<dyn BxDF>)> {
         Box::new(LambertianTransmission::new(COLOR)),
     ];
     all.extend(specular.into_iter().enumerate().map(|(i, lobe)| (format!("specular {i}"), lobe)));
-    for alpha in ALPHAS {
+    for &alpha in alphas {
         let white = white_facets(alpha);
         all.push((format!("facets {alpha:?}"), Box::new(white)));
         all.push((format!("retro {alpha:?}"), Box::new(RetroReflection::new(white))));
