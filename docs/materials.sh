@@ -9,6 +9,16 @@ matte        material.object.type="matte"
 rough-matte  material.object={type="matte",roughness=1}
 mirror       material.object.type="mirror"
 glass        material.object={type="glass",eta="glass-bk7"}
+rough-glass  material.object={type="glass",eta="glass-bk7",roughness=0.25}
+thin-glass   material.object.type="thin-glass"
+gold         material.object={type="metal",metal="gold"}
+rough-copper material.object={type="metal",metal="copper",roughness=0.25}
+brushed      material.object={type="metal",metal="aluminium",roughness=0.4,roughness_v=0.05}
+plastic      material.object={type="plastic",kd=[0.1,0.25,0.6]}
+rough-plastic material.object={type="plastic",kd=[0.1,0.25,0.6],roughness=0.3}
+translucent  material.object={type="translucent",kd=[0.75,0.6,0.3],transmission=0.6}
+retro        material.object={type="retro",roughness=0.2,weight=0.8}
+mix          material.object={type="mix",first="leaf",second="lacquer"}
 '
 
 set -euf # f: brackets in the words are no patterns
