@@ -86,6 +86,21 @@ pub enum Fault {
 }
 
 impl Fault {
+    /// All faults, in the order of their declaration.
+    pub const ALL: [Self; 11] = [
+        Self::Invalid,
+        Self::Side,
+        Self::Event,
+        Self::Value,
+        Self::Density,
+        Self::Distribution,
+        Self::Integral,
+        Self::Gain,
+        Self::Loss,
+        Self::Albedo,
+        Self::Reciprocity,
+    ];
+
     /// Its name, in one word or two.
     pub const fn name(self) -> &'static str {
         match self {
@@ -100,6 +115,23 @@ impl Fault {
             Self::Loss => "energy lost",
             Self::Albedo => "albedo",
             Self::Reciprocity => "reciprocity",
+        }
+    }
+
+    /// What was seen, in a sentence without its full stop.
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Self::Invalid => "a value, density or direction is not finite, or negative",
+            Self::Side => "a sample is on a side of the surface that the flags exclude",
+            Self::Event => "the flags of a sample are not those of its event",
+            Self::Value => "the value of a sample is not f at its direction",
+            Self::Density => "the density of a sample is not pdf at its direction",
+            Self::Distribution => "samples are not distributed as pdf says (chi-square)",
+            Self::Integral => "pdf and the share of samples without direction do not add up to 1",
+            Self::Gain => "more light is returned than comes in",
+            Self::Loss => "light is lost against the promise to return all",
+            Self::Albedo => "the mean weight of samples is not the integral of f cos θ",
+            Self::Reciprocity => "f changes when its directions are exchanged",
         }
     }
 
@@ -169,6 +201,15 @@ pub fn check_bsdf(bsdf: &Bsdf, options: &Options) -> Report {
 /// Checks the lobes of a material together, on a flat surface with uv (0.3, 0.4). What textures return elsewhere is not seen.
 pub fn check_material(material: &dyn Material, options: &Options) -> Report {
     with_lobes(material, |bsdf| check_bsdf(bsdf, options))
+}
+
+/// What [`check_bsdf`] measures from the direction of this cosine, which is not 0: for curves over the angle, all of which the same random
+/// numbers serve.
+pub fn albedo(bsdf: &Bsdf, cos: f32, samples: u32) -> Direction {
+    let mut report = Report::default();
+    let options = Options { samples, ..Options::default() };
+    directions::check(bsdf, 0, cos, &options, &mut report);
+    report.directions.remove(0)
 }
 
 /// Runs `check` with the lobes of a material at the point of [`check_material`].
