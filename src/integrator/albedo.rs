@@ -123,7 +123,7 @@ fn own(bsdf: &Bsdf, wo: Vec3, numbers: &Numbers) -> BySample {
 fn of_sphere(bsdf: &Bsdf, wo: Vec3, numbers: &Numbers) -> f32 {
     let frame = bsdf.frame();
     let f = |w: Vec3| mean(bsdf.f(wo, frame.to_world(w), BxdfFlags::all()));
-    let [above, below] = numbers.sphere.map(|u| cosine_hemisphere::sample(u));
+    let [above, below] = numbers.sphere.map(cosine_hemisphere::sample);
     let (above, below) = (f(above), f(-below));
     let (same, other) = if wo.dot(frame.n) > 0.0 { (above, below) } else { (below, above) };
     // Most surfaces are opaque.
