@@ -26,6 +26,8 @@ pub struct Direction {
     pub cos: f32,
     /// The fraction that is returned, by the mean weight of samples, per band.
     pub sampled: [Estimate; 3],
+    /// Its part that is not in specular events.
+    pub spread: [Estimate; 3],
     /// The same with f asked at the directions of the samples.
     pub evaluated: [f64; 3],
     /// The same as the integral of f cos θ, per band; without specular events, which have no f.
@@ -50,6 +52,7 @@ struct Tally {
     rejected: u64,
     specular: u64,
     sampled: [Mean; 3],
+    spread: [Mean; 3],
     evaluated: [Mean; 3],
     of_specular: [Mean; 3],
     /// η of refracted samples.
@@ -117,9 +120,11 @@ pub fn check(
             format!("from cos {cos}: pdf integrates to {density:.5}, and {share:.5} of the samples have one")
         });
     }
+    let estimate = |m: Mean| Estimate { mean: m.mean, error: m.standard_error() };
     let direction = Direction {
         cos,
-        sampled: tally.sampled.map(|m| Estimate { mean: m.mean, error: m.standard_error() }),
+        sampled: tally.sampled.map(estimate),
+        spread: tally.spread.map(estimate),
         evaluated: tally.evaluated.map(|m| m.mean),
         integrated: [total(1), total(2), total(3)],
         specular: tally.of_specular.map(|m| m.mean),
@@ -146,6 +151,7 @@ fn draw(
         rejected: 0,
         specular: 0,
         sampled: [Mean::default(); 3],
+        spread: [Mean::default(); 3],
         evaluated: [Mean::default(); 3],
         of_specular: [Mean::default(); 3],
         eta: 1.0,
@@ -216,6 +222,7 @@ impl Tally {
     fn weigh(&mut self, sampled: [f64; 3], evaluated: [f64; 3], is_specular: bool) {
         for band in 0..3 {
             self.sampled[band].add(sampled[band]);
+            self.spread[band].add(if is_specular { 0.0 } else { sampled[band] });
             self.evaluated[band].add(evaluated[band]);
             self.of_specular[band].add(if is_specular { sampled[band] } else { 0.0 });
         }
@@ -264,7 +271,10 @@ fn energy(direction: &Direction, options: &Options, runs: u32, report: &mut Repo
             report
                 .add(Fault::Loss, || format!("from cos {cos}: {mean:.5} of the light is returned"));
         }
-        let integral = direction.integrated[band] + direction.specular[band];
+        // Both without specular events, whose number is an error of its own.
+        let (Estimate { mean, error }, integral) =
+            (direction.spread[band], direction.integrated[band]);
+        let noise = limit * error + 1e-5;
         if direction.is_resolved && (mean - integral).abs() > noise + 2e-3 * integral.max(0.5) {
             report.add(Fault::Albedo, || {
                 format!(

@@ -12,7 +12,7 @@ const VIEWS: [f32; 4] = [0.0, 40.0, 75.0, 140.0];
 
 const WIDTH: f32 = 600.0;
 const HEIGHT: f32 = 440.0;
-const CENTRE: Vec2 = Vec2::new(300.0, 232.0);
+const CENTRE: Vec2 = Vec2::new(390.0, 232.0);
 const RADIUS: f32 = 190.0;
 
 /// Values on the rings.
