@@ -19,10 +19,10 @@ type = "matte"
 kd = [0.6, 0.3, 0.2]
 [material."grey wall"]
 type = "matte"
-kd = 0.25
+kd = [0.25, 0.25, 0.25]
 [material.coat]
 type = "plastic"
-kd = 0.5
+kd = [0.5, 0.5, 0.5]
 [shape.wall]
 obj = "wall.obj"
 material = "clay"
@@ -118,7 +118,7 @@ fn a_fault_is_named_and_has_exit_code_1() {
         ["ok     coat/1:MicrofacetReflection", "ok     coat/2:CoatedDiffuse"]
     );
     // White within the promise.
-    let white = format!("check m.toml clay --white {FEW} --set material.clay.kd=1");
+    let white = format!("check m.toml clay --white {FEW} --set material.clay.kd=[1,1,1]");
     assert!(folder.prints(&white).ends_with("\nok     clay\n"));
 }
 

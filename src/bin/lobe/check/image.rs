@@ -8,7 +8,7 @@ use lobe::render::{Progress, SamplerSettings};
 use lobe::scene_file::LoadedScene;
 use lobe::{RenderOptions, RenderSettings};
 
-use super::Arguments;
+use super::arguments::Arguments;
 use crate::output::Output;
 use crate::progress::Bar;
 

@@ -1,5 +1,6 @@
 //! `lobe check`: whether the materials of a scene keep the contracts of lobes.
 
+mod arguments;
 mod breaks;
 mod help;
 mod image;
@@ -14,60 +15,14 @@ use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{ArgGroup, Args, value_parser};
 use lobe::check::Options;
 use lobe::image::{check_writable, write_file};
 use lobe::params::Shown;
 
-use crate::arguments::ThreadsArgument;
 use crate::output::{Output, check_own};
-use crate::scene::SceneArguments;
 use crate::summary::print;
+pub use arguments::Arguments;
 use materials::Checked;
-
-/// Checks that materials keep the contracts of lobes: samples, values, densities, energy, reciprocity
-#[derive(Args)]
-#[command(after_help = help::text())]
-#[command(group(ArgGroup::new("what").required(true).args(["path", "breaks"])))]
-pub struct Arguments {
-    #[command(flatten)]
-    scene: Option<SceneArguments>,
-
-    /// The name of a material of the scene file [default: all]
-    #[arg(value_name = "MATERIAL")]
-    material: Option<String>,
-
-    /// Samples from each of eight directions
-    #[arg(long, value_name = "N", default_value_t = Options::default().samples, value_parser = value_parser!(u32).range(1024..=1 << 28))]
-    samples: u32,
-
-    /// Seed of the samples
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    seed: u64,
-
-    /// The materials promise to return all light, within 1e-3
-    #[arg(long)]
-    white: bool,
-
-    /// Writes a page with the verdicts, the albedo over the angle and the shape of the lobes
-    #[arg(long, value_name = "FILE.html")]
-    page: Option<PathBuf>,
-
-    /// Writes a picture of the scene with three estimates of the albedo as red, green and blue, .png or .exr: a tint is a bug
-    #[arg(long, value_name = "FILE")]
-    image: Option<PathBuf>,
-
-    /// With --image: samples per pixel
-    #[arg(long, value_name = "N", default_value_t = 64, requires = "image", value_parser = value_parser!(u32).range(1..1 << 24))]
-    spp: u32,
-
-    /// Checks the check: lobes that are wrong on purpose, in place of a scene. Exits with code 1 if a fault is not named
-    #[arg(long = "break", conflicts_with_all = ["material", "set", "white", "page", "image"])]
-    breaks: bool,
-
-    #[command(flatten)]
-    threads: ThreadsArgument,
-}
 
 /// What a lobe that promises to return all light may lose.
 const WHITE: f64 = 1e-3;
