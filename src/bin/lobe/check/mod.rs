@@ -12,7 +12,6 @@ mod polar;
 mod table;
 
 use std::error::Error;
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 use lobe::check::Options;
@@ -53,16 +52,14 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Box<dyn Error>> {
 
     let options = Options { white: arguments.white.then_some(WHITE), ..options };
     let checked = materials::check(materials, &options, threads);
-    let mut text = table::text(&checked);
+    print(&table::text(&checked))?;
     let picture = image::render(&loaded, &image, arguments)?;
     if let Some(path) = page {
         let html = page::html(&scene.path, &checked, &options, picture.as_ref(), threads)?;
         write_file(path, html.as_bytes())?;
     }
-    for path in paths {
-        text += &format!("wrote  {}\n", Shown::path(path));
-    }
-    print(&text)?;
+    let wrote = paths.iter().map(|path| format!("wrote  {}\n", Shown::path(path)));
+    print(&wrote.collect::<String>())?;
     let is_ok = checked.iter().all(Checked::is_ok);
     Ok(if is_ok { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
