@@ -87,7 +87,7 @@ fn a_program_can_read_the_table() {
     assert_eq!(verdicts, ok.map(|name| format!("ok     {name}")));
 }
 
-/// Seen to fail with the number of the thread in the seed of the samples.
+/// Seen to fail with the thread in the seed of the samples.
 #[test]
 fn the_output_does_not_depend_on_threads() {
     let folder = folder("check-threads");
@@ -122,7 +122,8 @@ fn a_fault_is_named_and_has_exit_code_1() {
     assert!(folder.prints(&white).ends_with("\nok     clay\n"));
 }
 
-/// Seen to fail with an unknown name that selects all materials, and with outputs checked after the check.
+/// Seen to fail with an unknown name that selects all materials, with a page in place of the scene, and with a folder that is looked for when
+/// the page is written.
 #[test]
 fn what_cannot_be_checked_is_said() {
     let folder = folder("check-errors");
@@ -153,7 +154,7 @@ fn what_cannot_be_checked_is_said() {
     }
 }
 
-/// Seen to fail with the light that is lost not looked at.
+/// Seen to fail with the light that is lost not looked at, and with exit code 1 though all are named.
 #[test]
 fn the_planted_faults_are_named() {
     let text = Folder::new("check-break").prints("check --break --samples 32768");
@@ -191,7 +192,7 @@ fn shipped_materials_have_no_fault() {
     }
 }
 
-/// Seen to fail with a picture that is linked, and with the lobes left out of the table.
+/// Seen to fail with a picture that is linked, with lobes left out of the table, and with promises that nobody made.
 #[test]
 fn the_page_has_all_in_one_file() {
     let folder = folder("check-page");
@@ -222,7 +223,7 @@ fn the_page_has_all_in_one_file() {
     assert!(page.ends_with("</html>\n"));
 }
 
-/// What is hit is grey, what is not is black. Seen to fail with blue from one hemisphere at the density of both.
+/// What is hit is grey, what is not is black. Seen to fail with half the weight of blue, as by the density of both hemispheres.
 #[test]
 fn the_picture_is_grey() {
     let folder = folder("check-picture");
@@ -237,7 +238,7 @@ fn the_picture_is_grey() {
         assert!(r < 1.2 / 3.0, "{r}");
     }
     let black = image.pixels.iter().filter(|pixel| pixel.is_black()).count();
-    assert!(grey > 50 && black > 20 && grey + black <= 200, "{grey} {black}");
+    assert!(grey > 30 && black > 100 && grey + black <= 200, "{grey} {black}");
 }
 
 /// Seen to fail with a fault left out of the list.

@@ -57,8 +57,8 @@ fn tint(colours: &[[f64; 3]]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Seen to fail with specular events left out of blue, with the factor η² left out of blue, and taken once; with one hemisphere for
-/// both; with a cosine left out of blue.
+/// Seen to fail with specular events left out of blue; with the factor η² left out of blue, taken once there, or left out of red and green;
+/// with the light from above taken for that from below, and with both exchanged for views from inside; with half the weight of blue.
 #[test]
 fn right_materials_are_grey() {
     let red = Spectrum::new(0.7, 0.3, 0.2);
@@ -83,7 +83,8 @@ fn right_materials_are_grey() {
     }
 }
 
-/// Lobes whose faults concern samples, values and densities: the hue tells which. Seen to fail with green taken from the samples.
+/// Lobes whose faults concern samples, values and densities: the hue tells which. Seen to fail with green taken from the
+/// samples.
 #[test]
 fn wrong_lobes_are_tinted() {
     // The bands that are equal.
