@@ -62,7 +62,7 @@ struct Tally {
 }
 
 /// The largest mean change of the density by rounding for which samples and integrals can be compared.
-const RESOLVED: f64 = 0.02;
+const RESOLVED: f64 = 2e-3;
 
 /// Every how many samples is compared with f and pdf.
 const STRIDE: u32 = 8;

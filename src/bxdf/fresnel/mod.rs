@@ -41,16 +41,16 @@ impl Fresnel {
         }
     }
 
-    /// The cosine-weighted mean of [`evaluate`](Self::evaluate) over directions above the surface: ∫ F d(cos² θ), by Gauss's rule with six points,
-    /// to 1e-3.
+    /// The cosine-weighted mean of [`evaluate`](Self::evaluate) over directions above the surface: ∫ 2 F cos θ d(cos θ), by Gauss's rule with
+    /// six points, to 1e-3.
     pub fn mean(&self) -> Spectrum {
         // Abramowitz and Stegun, table 25.4.
         const POINTS: [[f32; 2]; 3] =
             [[0.238_619_19, 0.467_913_93], [0.661_209_4, 0.360_761_57], [0.932_469_5, 0.171_324_5]];
         let mut mean = Spectrum::BLACK;
         for [x, weight] in POINTS {
-            for cos2 in [0.5 - 0.5 * x, 0.5 + 0.5 * x] {
-                mean += self.evaluate(cos2.sqrt()) * (0.5 * weight);
+            for cos in [0.5 - 0.5 * x, 0.5 + 0.5 * x] {
+                mean += self.evaluate(cos) * (cos * weight);
             }
         }
         mean

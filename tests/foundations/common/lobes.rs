@@ -4,46 +4,9 @@ use std::f32::consts::{FRAC_1_PI, PI};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use lobe::Spectrum;
-use lobe::bxdf::{Bsdf, BxDF, BxdfFlags, BxdfSample};
+use lobe::bxdf::{BxDF, BxdfFlags, BxdfSample};
 use lobe::glam::{Vec2, Vec3};
 use lobe::sampling::cosine_hemisphere;
-
-/// A scattering function in shading coordinates: one lobe, or a whole `Bsdf`.
-pub trait Scatters {
-    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum;
-    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32;
-    fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample>;
-}
-
-impl Scatters for &dyn BxDF {
-    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        (**self).f(wo, wi)
-    }
-    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        (**self).pdf(wo, wi)
-    }
-    fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
-        (**self).sample_f(wo, uc, u)
-    }
-}
-
-/// With all of its lobes, and directions taken to the world and back.
-impl Scatters for Bsdf<'_> {
-    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        let frame = self.frame();
-        Bsdf::f(self, frame.to_world(wo), frame.to_world(wi), BxdfFlags::all())
-    }
-    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        let frame = self.frame();
-        Bsdf::pdf(self, frame.to_world(wo), frame.to_world(wi), BxdfFlags::all())
-    }
-    fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
-        let frame = self.frame();
-        let mut sample = Bsdf::sample_f(self, frame.to_world(wo), uc, u, BxdfFlags::all())?;
-        sample.wi = frame.to_local(sample.wi);
-        Some(sample)
-    }
-}
 
 /// A glossy, anisotropic lobe with sampling of its own: the cosine hemisphere stretched along x and
 /// y by M (Heitz et al. 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines").

@@ -9,6 +9,8 @@ mod bases;
 mod disks;
 mod edges;
 mod extremes;
+mod facets;
+mod fresnel;
 mod lights;
 pub mod ray_origins;
 mod rectangles;
@@ -25,7 +27,7 @@ use sweep::Sweep;
 pub type Measure = fn(f64) -> Sweep;
 
 /// The names of the sweeps, in order, and the functions that measure them.
-pub const ALL: [(&str, Measure); 22] = [
+pub const ALL: [(&str, Measure); 28] = [
     ("ray-origins-scale", ray_origins::self_hits_by_scale),
     ("ray-origins-distance", ray_origins::self_hits_by_distance),
     ("ray-contacts-scale", ray_origins::contacts_by_scale),
@@ -48,6 +50,12 @@ pub const ALL: [(&str, Measure); 22] = [
     ("extremes-ones", extremes::ones),
     ("extremes-near-one", extremes::near_one),
     ("extremes-near-zero", extremes::near_zero),
+    ("fresnel-index", fresnel::near_one),
+    ("fresnel-critical", fresnel::critical_angle),
+    ("facets-smooth", facets::toward_smooth),
+    ("facets-pole", facets::pole),
+    ("facets-horizon", facets::horizon),
+    ("facets-samples", facets::visible_normals),
 ];
 
 /// All sweeps, with `effort` times the usual number of trials. Calls `begins` with the name of each before it is
