@@ -3,47 +3,12 @@
 use glam::Vec3;
 
 use super::cells::{Cells, GROUP};
-use super::statistics::{Mean, chi_square, significance, two_sided};
-use super::subject::{Subject, values};
-use super::{COSINES, Fault, Options, Report, is_close, view};
+use super::fault::Fault;
+use super::report::{Direction, Estimate, Options, Report};
+use super::statistics::{Mean, chi_square, is_close, significance, two_sided};
+use super::subject::{COSINES, Subject, values, view};
 use crate::bxdf::{BxdfFlags, BxdfSample};
 use crate::sampling::Random;
-
-/// A measured number and its standard error.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Estimate {
-    /// The number.
-    pub mean: f64,
-    /// Its standard error.
-    pub error: f64,
-}
-
-/// What was measured from one direction. Fractions of light are those of uniform light from all around, with the factors η² of
-/// refraction taken out.
-#[derive(Clone, Copy, Debug)]
-pub struct Direction {
-    /// cos θ of wo.
-    pub cos: f32,
-    /// The fraction that is returned, by the mean weight of samples, per band.
-    pub sampled: [Estimate; 3],
-    /// Its part that is not in specular events.
-    pub spread: [Estimate; 3],
-    /// The same with f asked at the directions of the samples.
-    pub evaluated: [f64; 3],
-    /// The same as the integral of f cos θ, per band; without specular events, which have no f.
-    pub integrated: [f64; 3],
-    /// The fraction of light in specular events, per band.
-    pub specular: [f64; 3],
-    /// The integral of the density.
-    pub density: f64,
-    /// The fraction of sample values that give no direction.
-    pub rejected: f64,
-    /// The probability that samples distributed by the density fit it as badly.
-    pub p: f64,
-    /// Whether f32 resolves the lobe from here. Where it does not, the density changes with the rounding of directions, and samples are not
-    /// compared with integrals.
-    pub is_resolved: bool,
-}
 
 /// Samples by kind, and weights.
 struct Tally {
