@@ -162,6 +162,11 @@ impl<'a> Bsdf<'a> {
         self.lobes.iter().all(|(_, kind)| !kind.intersects(spread))
     }
 
+    /// All lobes, in the order in which they were added.
+    pub fn lobes(&self) -> impl ExactSizeIterator<Item = &Lobe<'a>> {
+        self.lobes.iter().map(|(lobe, _)| lobe)
+    }
+
     /// Number of lobes whose flags are all contained in `flags`.
     #[inline]
     pub fn num_components(&self, flags: BxdfFlags) -> usize {

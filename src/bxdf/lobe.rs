@@ -65,6 +65,17 @@ macro_rules! lobe_of {
             Custom(&'a dyn BxDF),
         }
 
+        impl Lobe<'_> {
+            /// The name of its type, or "custom" for a model defined elsewhere.
+            pub const fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$model(_) => stringify!($model),)*
+                    $(Self::$borrowing(_) => stringify!($borrowing),)*
+                    Self::Custom(_) => "custom",
+                }
+            }
+        }
+
         $(
             impl From<super::$model> for Lobe<'_> {
                 #[inline]

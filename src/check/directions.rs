@@ -3,45 +3,12 @@
 use glam::Vec3;
 
 use super::cells::{Cells, GROUP};
-use super::statistics::{Mean, chi_square, significance, two_sided};
-use super::subject::{Subject, values};
-use super::{COSINES, Fault, Options, Report, is_close, view};
+use super::fault::Fault;
+use super::report::{Direction, Estimate, Options, Report};
+use super::statistics::{Mean, chi_square, is_close, significance, two_sided};
+use super::subject::{COSINES, Subject, values, view};
 use crate::bxdf::{BxdfFlags, BxdfSample};
 use crate::sampling::Random;
-
-/// A measured number and its standard error.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Estimate {
-    /// The number.
-    pub mean: f64,
-    /// Its standard error.
-    pub error: f64,
-}
-
-/// What was measured from one direction. Fractions of light are those of uniform light from all around, with the factors η² of
-/// refraction taken out.
-#[derive(Clone, Copy, Debug)]
-pub struct Direction {
-    /// cos θ of wo.
-    pub cos: f32,
-    /// The fraction that is returned, by the mean weight of samples, per band.
-    pub sampled: [Estimate; 3],
-    /// The same with f asked at the directions of the samples.
-    pub evaluated: [f64; 3],
-    /// The same as the integral of f cos θ, per band; without specular events, which have no f.
-    pub integrated: [f64; 3],
-    /// The fraction of light in specular events, per band.
-    pub specular: [f64; 3],
-    /// The integral of the density.
-    pub density: f64,
-    /// The fraction of sample values that give no direction.
-    pub rejected: f64,
-    /// The probability that samples distributed by the density fit it as badly.
-    pub p: f64,
-    /// Whether f32 resolves the lobe from here. Where it does not, the density changes with the rounding of directions, and samples are not
-    /// compared with integrals.
-    pub is_resolved: bool,
-}
 
 /// Samples by kind, and weights.
 struct Tally {
@@ -50,6 +17,7 @@ struct Tally {
     rejected: u64,
     specular: u64,
     sampled: [Mean; 3],
+    spread: [Mean; 3],
     evaluated: [Mean; 3],
     of_specular: [Mean; 3],
     /// η of refracted samples.
@@ -117,9 +85,11 @@ pub fn check(
             format!("from cos {cos}: pdf integrates to {density:.5}, and {share:.5} of the samples have one")
         });
     }
+    let estimate = |m: Mean| Estimate { mean: m.mean, error: m.standard_error() };
     let direction = Direction {
         cos,
-        sampled: tally.sampled.map(|m| Estimate { mean: m.mean, error: m.standard_error() }),
+        sampled: tally.sampled.map(estimate),
+        spread: tally.spread.map(estimate),
         evaluated: tally.evaluated.map(|m| m.mean),
         integrated: [total(1), total(2), total(3)],
         specular: tally.of_specular.map(|m| m.mean),
@@ -146,6 +116,7 @@ fn draw(
         rejected: 0,
         specular: 0,
         sampled: [Mean::default(); 3],
+        spread: [Mean::default(); 3],
         evaluated: [Mean::default(); 3],
         of_specular: [Mean::default(); 3],
         eta: 1.0,
@@ -216,6 +187,7 @@ impl Tally {
     fn weigh(&mut self, sampled: [f64; 3], evaluated: [f64; 3], is_specular: bool) {
         for band in 0..3 {
             self.sampled[band].add(sampled[band]);
+            self.spread[band].add(if is_specular { 0.0 } else { sampled[band] });
             self.evaluated[band].add(evaluated[band]);
             self.of_specular[band].add(if is_specular { sampled[band] } else { 0.0 });
         }
@@ -264,7 +236,10 @@ fn energy(direction: &Direction, options: &Options, runs: u32, report: &mut Repo
             report
                 .add(Fault::Loss, || format!("from cos {cos}: {mean:.5} of the light is returned"));
         }
-        let integral = direction.integrated[band] + direction.specular[band];
+        // Both without specular events, whose number is an error of its own.
+        let (Estimate { mean, error }, integral) =
+            (direction.spread[band], direction.integrated[band]);
+        let noise = limit * error + 1e-5;
         if direction.is_resolved && (mean - integral).abs() > noise + 2e-3 * integral.max(0.5) {
             report.add(Fault::Albedo, || {
                 format!(

@@ -2,8 +2,9 @@
 
 use glam::{Vec2, Vec3};
 
-use super::subject::Subject;
-use super::{Fault, Report, view};
+use super::fault::Fault;
+use super::report::Report;
+use super::subject::{Subject, view};
 
 const VALUES: [f32; 4] = [0.0, 1.0 / (1 << 24) as f32, 0.5, 1.0 - f32::EPSILON / 2.0];
 const COSINES: [f32; 8] = [1.0, 0.5, 1e-4, 1e-7, -1e-7, -1e-4, -0.5, -1.0];

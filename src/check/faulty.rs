@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_1_PI;
 
 use glam::{Vec2, Vec3};
 
-use super::Fault;
+use super::fault::Fault;
 use crate::bxdf::{
     BxDF, BxdfFlags, BxdfSample, EnergyPreservingOrenNayar, FresnelSpecular, LambertianReflection,
 };

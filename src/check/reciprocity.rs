@@ -2,8 +2,9 @@
 
 use glam::Vec3;
 
+use super::fault::Fault;
+use super::report::{Options, Report};
 use super::subject::{Subject, values};
-use super::{Fault, Options, Report};
 use crate::bxdf::BxdfSample;
 use crate::sampling::{Random, uniform_sphere};
 use crate::spectrum::Spectrum;

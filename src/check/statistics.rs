@@ -79,6 +79,11 @@ fn ln_gamma(x: f64) -> f64 {
     shift + (x - 0.5) * x.ln() - x + 0.5 * std::f64::consts::TAU.ln() + series
 }
 
+/// Whether two numbers agree to a fraction, or both are as good as 0.
+pub fn is_close(a: f32, b: f32, tolerance: f32) -> bool {
+    (a - b).abs() <= tolerance * a.abs().max(b.abs()) + 1e-6
+}
+
 /// Mean and variance of numbers that come one by one (Welford).
 #[derive(Clone, Copy, Default)]
 pub struct Mean {

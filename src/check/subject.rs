@@ -66,3 +66,12 @@ impl Subject for Bsdf<'_> {
 pub fn values(random: &mut Random) -> (f32, Vec2) {
     (random.next(), Vec2::new(random.next(), random.next()))
 }
+
+/// cos θ of the directions of view.
+pub const COSINES: [f32; 8] = [1.0, 0.7, 0.3, 0.05, 1e-4, -1.0, -0.6, -0.05];
+
+/// The unit vector with this cosine, askew to all axes.
+pub fn view(cos: f32) -> Vec3 {
+    let sin = ((1.0 - cos) * (1.0 + cos)).sqrt();
+    Vec3::new(0.8 * sin, 0.6 * sin, cos)
+}

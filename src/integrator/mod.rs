@@ -20,12 +20,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod albedo;
 mod chapter;
 mod direct;
 mod path;
 mod traits;
 mod wave;
 
+pub use albedo::AlbedoIntegrator;
 pub use chapter::ChapterIntegrator;
 pub use direct::DirectIntegrator;
 pub use path::PathIntegrator;

@@ -22,7 +22,7 @@ use crate::texture::Textures;
 pub struct Description {
     view: View,
     pub settings: RenderSettings,
-    materials: Vec<(String, Arc<dyn Material>)>,
+    pub materials: Vec<(String, Arc<dyn Material>)>,
     lights: Vec<Arc<dyn Light>>,
     shapes: Vec<(String, Shape)>,
 }

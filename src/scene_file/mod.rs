@@ -14,6 +14,7 @@ mod sections;
 mod toml_tree;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 pub use error::{Place, SceneFileError, TextProblem};
 pub use sections::SECTIONS;
@@ -21,6 +22,7 @@ pub use sections::SECTIONS;
 use crate::accel::InstructionSet;
 use crate::clock::Stopwatch;
 use crate::file;
+use crate::material::Material;
 use crate::params::{Document, Fault, Mark};
 use crate::render::RenderSettings;
 use crate::scene::{Scene, View};
@@ -37,10 +39,16 @@ pub struct LoadedScene {
     pub settings: RenderSettings,
     /// Load time and warnings about meshes.
     pub report: LoadReport,
+    materials: Vec<(String, Arc<dyn Material>)>,
     document: Document,
 }
 
 impl LoadedScene {
+    /// The materials of the file by name, in its order, whether or not a shape has them.
+    pub fn materials(&self) -> impl ExactSizeIterator<Item = (&str, &dyn Material)> {
+        self.materials.iter().map(|(name, material)| (name.as_str(), &**material))
+    }
+
     /// The files that the scene refers to. The scene file is not among them.
     pub fn files(&self) -> Vec<PathBuf> {
         self.document.files()
@@ -179,8 +187,10 @@ fn parse_for(
     let source = Source::new(path, text, overrides);
     let document = source.parse()?;
     let description = source.place(assemble::describe(&document))?;
+    let materials = description.materials.clone();
     let (scene, view, settings, meshes) =
         source.place(assemble::build(description, &document, instruction_set))?;
     let seconds = start.seconds() - scene.build_seconds();
-    Ok(LoadedScene { scene, view, settings, report: LoadReport { seconds, meshes }, document })
+    let report = LoadReport { seconds, meshes };
+    Ok(LoadedScene { scene, view, settings, report, materials, document })
 }

@@ -5,6 +5,7 @@
 //! overflows; exit code 0 for errors.
 
 mod chart;
+mod check;
 #[path = "../exr_file/mod.rs"]
 mod exr_file;
 mod folder;
@@ -194,7 +195,7 @@ fn help_lists_what_scene_files_can_hold() {
     // All topics: seen to fail with a limit of twelve.
     folder.fails(
         "help foo",
-        "there is no help on `foo`; expected `render`, `info`, `merge`, `compare`, `chart`, `help`, `cameras`, `filters`, \
+        "there is no help on `foo`; expected `render`, `info`, `merge`, `compare`, `chart`, `check`, `help`, `cameras`, `filters`, \
          `samplers`, `integrators`, `textures`, `materials`, `lights`, `shapes` or `scene-format`",
     );
     for section in lobe::scene_file::SECTIONS {

@@ -6,6 +6,7 @@ mod scenes;
 #[path = "../transport/statistics.rs"]
 mod statistics;
 
+mod albedo;
 mod furnace;
 mod lights;
 mod places;

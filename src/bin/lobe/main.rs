@@ -1,7 +1,8 @@
-//! The command `lobe`: renders scene files, shows what they contain, and compares images.
+//! The command `lobe`: renders scene files, shows what they contain, compares images, and checks materials.
 
 mod arguments;
 mod chart;
+mod check;
 mod compare;
 mod help;
 mod identity;
@@ -10,11 +11,13 @@ mod info;
 mod interrupt;
 mod merge;
 mod output;
+mod page;
 mod progress;
 mod render;
 mod scene;
 mod stability;
 mod state;
+mod steps;
 mod summary;
 
 use std::error::Error;
@@ -33,6 +36,7 @@ Examples:
   lobe compare a.exr reference.exr                      errors, FLIP, and whether noise explains them
   lobe chart scene.toml                                 error against time, for each method
   lobe chart --stability                                where methods fail numerically
+  lobe check scene.toml                                 whether materials keep their contracts
   lobe help materials                                   kinds of materials, their keys and ranges
 
 `lobe help render` and so on show more examples.";
@@ -53,6 +57,7 @@ enum Command {
     Merge(merge::Arguments),
     Compare(compare::Arguments),
     Chart(chart::Arguments),
+    Check(check::Arguments),
     Help(help::Arguments),
 }
 
@@ -64,6 +69,7 @@ fn main() -> ExitCode {
         Command::Merge(arguments) => merge::run(&arguments).map(success),
         Command::Compare(arguments) => compare::run(&arguments).map(success),
         Command::Chart(arguments) => chart::run(&arguments).map(success),
+        Command::Check(arguments) => check::run(&arguments),
         Command::Help(arguments) => help::run(&arguments, Arguments::command()).map(success),
     };
     match result {

@@ -60,25 +60,8 @@ impl Output {
 
     /// Refuses outputs that are among the files `read`, or the same file twice.
     pub fn check_own(outputs: &[Self], read: &[PathBuf]) -> Result<(), Box<dyn Error>> {
-        // Of a file that does not exist yet, by its folder.
-        let real = |path: &Path| {
-            let folder = path.parent().filter(|folder| *folder != Path::new(""));
-            let folder = fs::canonicalize(folder.unwrap_or(Path::new("."))).ok();
-            fs::canonicalize(path).ok().or_else(|| Some(folder?.join(path.file_name()?)))
-        };
-        let read: Vec<_> = read.iter().filter_map(|path| real(path)).collect();
-        for (index, Self { path, .. }) in outputs.iter().enumerate() {
-            let shown = Shown::path(path);
-            if real(path).is_some_and(|path| read.contains(&path)) {
-                let what = format!("cannot write `{shown}`: it is read; give another name");
-                return Err(what.into());
-            }
-            let is_same = |other: &Self| other.path == *path || real(path) == real(&other.path);
-            if outputs[..index].iter().any(is_same) {
-                return Err(format!("`{shown}` is given twice: give each output once").into());
-            }
-        }
-        Ok(())
+        let paths: Vec<&Path> = outputs.iter().map(|output| &*output.path).collect();
+        check_own(&paths, read)
     }
 
     fn bytes(
@@ -143,4 +126,27 @@ impl Output {
         });
         free.into_iter().flatten()
     }
+}
+
+/// Refuses outputs that are among the files `read`, or the same file twice.
+pub fn check_own(outputs: &[&Path], read: &[PathBuf]) -> Result<(), Box<dyn Error>> {
+    // Of a file that does not exist yet, by its folder.
+    let real = |path: &Path| {
+        let folder = path.parent().filter(|folder| *folder != Path::new(""));
+        let folder = fs::canonicalize(folder.unwrap_or(Path::new("."))).ok();
+        fs::canonicalize(path).ok().or_else(|| Some(folder?.join(path.file_name()?)))
+    };
+    let read: Vec<_> = read.iter().filter_map(|path| real(path)).collect();
+    for (index, path) in outputs.iter().enumerate() {
+        let shown = Shown::path(path);
+        if real(path).is_some_and(|path| read.contains(&path)) {
+            let what = format!("cannot write `{shown}`: it is read; give another name");
+            return Err(what.into());
+        }
+        let is_same = |other: &&Path| other == path || real(path) == real(other);
+        if outputs[..index].iter().any(is_same) {
+            return Err(format!("`{shown}` is given twice: give each output once").into());
+        }
+    }
+    Ok(())
 }

@@ -81,17 +81,21 @@ impl Summary {
         }
     }
 
-    /// Prints all lines, with the values aligned. A closed pipe is no error: the reader has seen enough.
+    /// Prints all lines, with the values aligned, as [`print`] does.
     pub fn print(&self) -> io::Result<()> {
         let width = self.0.iter().map(|(key, _)| key.len()).max().unwrap_or(0);
         let lines =
             self.0.iter().map(|(key, value)| format!("{key:width$}  {}\n", Shown::whole(value)));
-        let mut stdout = io::stdout().lock();
-        let printed =
-            stdout.write_all(lines.collect::<String>().as_bytes()).and_then(|()| stdout.flush());
-        printed.or_else(|error| match error.kind() {
-            io::ErrorKind::BrokenPipe => Ok(()),
-            _ => Err(io::Error::new(error.kind(), format!("cannot print the summary: {error}"))),
-        })
+        print(&lines.collect::<String>())
     }
+}
+
+/// Prints a text. A closed pipe is no error: the reader has seen enough.
+pub fn print(text: &str) -> io::Result<()> {
+    let mut stdout = io::stdout().lock();
+    let printed = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
+    printed.or_else(|error| match error.kind() {
+        io::ErrorKind::BrokenPipe => Ok(()),
+        _ => Err(io::Error::new(error.kind(), format!("cannot print the summary: {error}"))),
+    })
 }

@@ -15,8 +15,8 @@ use super::methods::with_changes;
 use super::plan::Plan;
 use super::results::{CHECK, REFERENCE, Results};
 use super::runs::Planned;
-use super::steps::Steps;
 use crate::scene::SceneArguments;
+use crate::steps::Steps;
 
 /// The methods of a chart, and where its results are stored.
 pub struct Bench<'a> {

@@ -10,7 +10,6 @@ mod report;
 mod results;
 mod runs;
 mod stability;
-mod steps;
 
 use std::error::Error;
 use std::ffi::OsString;

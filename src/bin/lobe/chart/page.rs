@@ -3,33 +3,15 @@
 use std::error::Error;
 use std::fmt::Write;
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use lobe::glam::UVec2;
-use lobe::image::{Display, EncodeError, Image, encode_png};
+use lobe::image::{Display, Image};
 use lobe::metrics::chart::{Chart, escape};
 use lobe::metrics::convergence::{Curve, Study};
 use lobe::metrics::{ErrorMap, Errors, Viewing};
 
 use super::measure::Bench;
 use super::plan::Plan;
-
-/// CSS rules of all pages.
-pub const STYLE: &str = "\
-:root{color-scheme:light dark}
-body{font:15px/1.5 system-ui,-apple-system,'Segoe UI',Roboto,Helvetica,Arial,sans-serif;max-width:900px;margin:0 auto;padding:12px;color:#222;background:#fff}
-h1{font-size:22px}h2{font-size:17px;margin-top:28px}
-svg.lobe{display:block;max-width:720px;width:100%;margin:12px 0}
-table{border-collapse:collapse;font-size:13px;display:block;overflow-x:auto}
-td,th{padding:3px 9px;text-align:right;border-bottom:1px solid #ddd;white-space:nowrap}
-td:first-child,th:first-child{text-align:left}
-figure{margin:0}figcaption{font-size:12.5px;line-height:1.35;margin:3px 0 10px}
-.grid{display:grid;grid-template-columns:repeat(auto-fill,minmax(260px,1fr));gap:12px}
-.pair{display:grid;grid-template-columns:1fr 1fr;gap:3px}
-img{width:100%;image-rendering:pixelated;display:block}
-.whole{max-width:600px;image-rendering:auto}
-@media(prefers-color-scheme:dark){body{color:#e6e6e6;background:#0d1117}td,th{border-color:#30363d}}
-";
+use crate::page::{begin, data};
 
 /// Columns and rows of the crop that is shown of each picture.
 const CROP: u32 = 96;
@@ -42,12 +24,7 @@ pub fn html(
     remarks: &[String],
     charts: [&Chart; 3],
 ) -> Result<String, Box<dyn Error>> {
-    let title = escape(&format!("{}: error against time", study.scene));
-    let mut page = format!(
-        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n\
-         <title>{title}</title>\n<style>\n{STYLE}</style>\n<h1>{title}</h1>\n"
-    );
+    let mut page = begin(&format!("{}: error against time", study.scene));
     let size = bench.loaded.view.film().window().size();
     let _ = writeln!(
         page,
@@ -229,9 +206,4 @@ fn table(page: &mut String, study: &Study) {
         let _ = writeln!(page, "<tr><td>{label}<td><td><td>{:.4}<td>{error}<td>", other.seconds);
     }
     page.push_str("</table>\n");
-}
-
-/// A PNG file as a data URL.
-fn data(size: UVec2, codes: &[u8]) -> Result<String, EncodeError> {
-    Ok(format!("data:image/png;base64,{}", STANDARD.encode(encode_png(size, codes)?)))
 }

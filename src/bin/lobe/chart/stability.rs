@@ -10,10 +10,10 @@ use lobe::metrics::chart::{Axis, Chart, Line, Point, Scale, escape};
 use lobe::params::Shown;
 
 use super::folder::{Folder, check_size};
-use super::page::STYLE;
-use super::steps::Steps;
+use crate::page::begin;
 use crate::stability::sweep::{Method, Sweep};
 use crate::stability::{ALL, all};
+use crate::steps::Steps;
 use crate::summary::Summary;
 
 /// The table of all numbers, and its first line.
@@ -38,7 +38,7 @@ pub fn run(folder: &Path, effort: f64, is_quiet: bool) -> Result<(), Box<dyn Err
     sweeps.iter().for_each(|sweep| add_rows(&mut csv, sweep));
     // First, because it marks the folder as one of these charts.
     folder.write(TABLE, csv.as_bytes())?;
-    let mut page = head();
+    let mut page = begin("Where methods fail");
     let mut summary = Summary::default();
     let mut broken = Vec::new();
     for sweep in &sweeps {
@@ -83,14 +83,6 @@ fn check_table(path: &Path) -> Result<(), Box<dyn Error>> {
         )
         .into()
     })
-}
-
-fn head() -> String {
-    format!(
-        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n\
-         <title>Where methods fail</title>\n<style>\n{STYLE}</style>\n<h1>Where methods fail</h1>\n"
-    )
 }
 
 /// A sentence on where a common method fails and ours does not.

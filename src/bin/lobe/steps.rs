@@ -1,4 +1,4 @@
-//! [`Steps`]: progress of a chart on the terminal.
+//! [`Steps`]: progress of a command of many steps on the terminal.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use lobe::params::Shown;

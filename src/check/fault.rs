@@ -1,0 +1,97 @@
+//! [`Fault`]: the contracts, and what to do where one is broken.
+
+/// A contract that is broken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Fault {
+    /// A value, density or direction is not finite, or negative.
+    Invalid,
+    /// A sample is on a side of the surface that the flags exclude.
+    Side,
+    /// The flags of a sample are not those of its event.
+    Event,
+    /// The value of a sample is not f at its direction.
+    Value,
+    /// The density of a sample is not pdf at its direction.
+    Density,
+    /// Samples are not distributed as the density says.
+    Distribution,
+    /// The density and what is rejected do not add up to 1.
+    Integral,
+    /// More light is returned than comes in.
+    Gain,
+    /// Light is lost against the promise to return all.
+    Loss,
+    /// The mean weight of samples is not the integral of f cos θ.
+    Albedo,
+    /// Exchanged directions give another value.
+    Reciprocity,
+}
+
+impl Fault {
+    /// All faults, in the order of their declaration.
+    pub const ALL: [Self; 11] = [
+        Self::Invalid,
+        Self::Side,
+        Self::Event,
+        Self::Value,
+        Self::Density,
+        Self::Distribution,
+        Self::Integral,
+        Self::Gain,
+        Self::Loss,
+        Self::Albedo,
+        Self::Reciprocity,
+    ];
+
+    /// Its name, in one word or two.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Invalid => "invalid",
+            Self::Side => "wrong side",
+            Self::Event => "wrong event",
+            Self::Value => "value of samples",
+            Self::Density => "density of samples",
+            Self::Distribution => "distribution",
+            Self::Integral => "integral of pdf",
+            Self::Gain => "energy gained",
+            Self::Loss => "energy lost",
+            Self::Albedo => "albedo",
+            Self::Reciprocity => "reciprocity",
+        }
+    }
+
+    /// What was seen, in a sentence without its full stop.
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Self::Invalid => "a value, density or direction is not finite, or negative",
+            Self::Side => "a sample is on a side of the surface that the flags exclude",
+            Self::Event => "the flags of a sample are not those of its event",
+            Self::Value => "the value of a sample is not f at its direction",
+            Self::Density => "the density of a sample is not pdf at its direction",
+            Self::Distribution => "samples are not distributed as pdf says (chi-square)",
+            Self::Integral => "pdf and the share of samples without direction do not add up to 1",
+            Self::Gain => "more light is returned than comes in",
+            Self::Loss => "light is lost against the promise to return all",
+            Self::Albedo => "the mean weight of samples is not the integral of f cos θ",
+            Self::Reciprocity => "f changes when its directions are exchanged",
+        }
+    }
+
+    /// What to look for.
+    pub const fn hint(self) -> &'static str {
+        match self {
+            Self::Invalid => "look for 0/0 along the surface, and for roots of numbers below 0",
+            Self::Side => "return None for samples on the other side",
+            Self::Event => "give samples the flags of their event, not all flags of the lobe",
+            Self::Value => "return f(wo, wi) of the sampled direction",
+            Self::Density => "return pdf(wo, wi) of the sampled direction, of all events together",
+            Self::Distribution => "pdf must be the density with which sample_f draws",
+            Self::Integral => "pdf must integrate to 1 over all directions, less the share of None",
+            Self::Gain => "look for a missing factor 1/eta² or a factor that counts twice",
+            Self::Loss => "look for a factor below 1 that counts twice",
+            Self::Albedo => "f has parts that sample_f never draws, or the other way round",
+            Self::Reciprocity => "f(wo, wi) = f(wi, wo), with the factor eta² across a boundary",
+        }
+    }
+}
