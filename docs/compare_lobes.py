@@ -5,12 +5,13 @@
     apt-get install libllvm19                       # for Mitsuba's llvm_ad_rgb
     venv/bin/python docs/compare_lobes.py lobes events pictures [--out FOLDER] [--threads 2]
 
-Prints tables in Markdown. docs/lobes.md contains and explains them. `lobes` takes half a minute, `events` a few seconds.
+Prints tables in Markdown. docs/lobes.md contains and explains them. On two cores `events` takes
+seconds, `lobes` about two minutes and `pictures` about five.
 
 Models that differ by design are made equal before they are compared: Mitsuba's values are multiplied and added to by terms that this script
 computes by its own formulas and integrals, in f64. What the terms are is said beside each case.
 
-Relative differences are |ours - theirs| / max(|theirs|, 1e-6 / sr). Values of Mitsuba are divided by its cosine. Its `wi` is our `wo`.
+Relative differences are |ours - theirs| / max(|theirs|, 1e-6). Values of Mitsuba are divided by its cosine. Its `wi` is our `wo`.
 """
 import argparse, glob, os, subprocess, tempfile
 ap = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
