@@ -66,8 +66,7 @@ fn specular(subject: &dyn Subject, wo: Vec3, sample: &BxdfSample, report: &mut R
 
 fn note(difference: f64, wo: Vec3, wi: Vec3, report: &mut Report) {
     report.reciprocity = report.reciprocity.max(difference);
-    // Not false for NaN.
-    if !(difference <= TOLERANCE) {
+    if difference.is_nan() || difference > TOLERANCE {
         report.add(Fault::Reciprocity, || {
             format!("f of wo {wo} and wi {wi} changes by the fraction {difference:.2e} when they are exchanged")
         });

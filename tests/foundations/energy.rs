@@ -291,8 +291,14 @@ fn returned(lobe: &dyn BxDF, wo: Vec3) -> f64 {
     sum / f64::from(DIRECTIONS * CHOICES)
 }
 
+/// The direction turned around the normal, by an angle in radians.
+fn turned(w: Vec3, by: f32) -> Vec3 {
+    let (sin, cos) = by.sin_cos();
+    Vec3::new(cos * w.x - sin * w.y, sin * w.x + cos * w.y, w.z)
+}
+
 /// White furnaces of glossy lobes with what several facets return: 1 within 1e-3 at every angle and roughness. Anisotropic glass is held to 2e-3,
-/// and anisotropic metal with the losses of an isotropic one to 6 %. Caught: the losses of one side for
+/// and anisotropic metal with the losses of an isotropic one to 10 %. Caught: the losses of one side for
 /// both; means of losses without the cosine; a coat's losses for another index; transmission without 1/η².
 #[test]
 fn rough_surfaces_lose_nothing() {
@@ -302,18 +308,21 @@ fn rough_surfaces_lose_nothing() {
     let any = Losses::of_mirrors(Roughnesses::Any);
     parallel(alphas.len() * 2, |i| {
         let alpha = alphas[i / 2];
-        let alpha = if i % 2 == 0 { [alpha; 2] } else { [alpha, 0.2 * alpha] };
+        let alpha = if i % 2 == 0 { [alpha; 2] } else { [alpha, 0.1 * alpha] };
         let constant = Roughnesses::Constant(alpha);
         let losses = Losses::of_mirrors(constant);
         let facets = MicrofacetReflection::new(alpha, Fresnel::NoOp);
+        // Brushed surfaces are seen along both axes and, where losses change fastest, beside the smooth one.
+        let turns: &[f32] = if i % 2 == 0 { &[0.0] } else { &[0.0, 1.4] };
+        let views = || turns.iter().flat_map(|turn| cosines.map(|cos| turned(view(cos), *turn)));
         let held = |lobe: &dyn BxDF, bound: f64, what: &str| {
-            for cos in cosines {
-                let found = returned(lobe, view(cos));
-                assert!((found - 1.0).abs() < bound, "{what} {alpha:?}, cos {cos}: {found}");
+            for wo in views() {
+                let found = returned(lobe, wo);
+                assert!((found - 1.0).abs() < bound, "{what} {alpha:?}, wo {wo}: {found}");
             }
         };
         held(&facets.and_multiple(&losses, white), 1e-3, "metal");
-        let bound = if i % 2 == 0 { 1e-3 } else { 0.06 };
+        let bound = if i % 2 == 0 { 1e-3 } else { 0.1 };
         held(&facets.and_multiple(&any, white), bound, "metal, losses of any roughness");
         for eta in [1.5, 1.05] {
             let losses = BoundaryLosses::new(eta, constant);
@@ -322,9 +331,9 @@ fn rough_surfaces_lose_nothing() {
             let losses = Losses::of_coat(eta, constant);
             let coat = MicrofacetReflection::new(alpha, Fresnel::Dielectric { eta });
             let base = CoatedDiffuse::new(white, alpha, eta, &losses);
-            for cos in cosines {
-                let found = returned(&coat, view(cos)) + returned(&base, view(cos));
-                assert!((found - 1.0).abs() < 1e-3, "coat {eta} {alpha:?}, cos {cos}: {found}");
+            for wo in views() {
+                let found = returned(&coat, wo) + returned(&base, wo);
+                assert!((found - 1.0).abs() < 1e-3, "coat {eta} {alpha:?}, wo {wo}: {found}");
             }
         }
     });

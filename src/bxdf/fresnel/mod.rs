@@ -46,7 +46,7 @@ impl Fresnel {
     pub fn mean(&self) -> Spectrum {
         // Abramowitz and Stegun, table 25.4.
         const POINTS: [[f32; 2]; 3] =
-            [[0.238_619_19, 0.467_913_93], [0.661_209_4, 0.360_761_57], [0.932_469_5, 0.171_324_5]];
+            [[0.238_619_2, 0.467_913_93], [0.661_209_4, 0.360_761_57], [0.932_469_5, 0.171_324_5]];
         let mut mean = Spectrum::BLACK;
         for [x, weight] in POINTS {
             for cos in [0.5 - 0.5 * x, 0.5 + 0.5 * x] {

@@ -12,7 +12,7 @@ use crate::simd::{Block, BlockKernel, Float, InstructionSet};
 pub enum Roughnesses {
     /// One, along x and along y.
     Constant([f32; 2]),
-    /// Any: 65 times the work. Where the two axes differ, the losses are those of their root mean square: up to 6 % too much or too little.
+    /// Any: 65 times the work. Where the two axes differ, the losses are those of their root mean square: up to 10 % too much or too little.
     Any,
 }
 
@@ -41,8 +41,8 @@ enum Axis {
     None,
     /// Roughness: see [`row_alpha`].
     Alpha,
-    /// cos² φ, in equal steps.
-    Turn,
+    /// Direction around the normal.
+    Turn(Turns),
     /// There is none: a smooth boundary with this index.
     Smooth(f32),
 }
@@ -82,8 +82,8 @@ impl Losses {
         let (axis, surfaces): (_, Vec<(Ggx, f32)>) = match roughnesses {
             Roughnesses::Constant([x, y]) if x == y => (Axis::None, vec![(Ggx::new([x, y]), 1.0)]),
             Roughnesses::Constant(alpha) => {
-                let turn = |row| row as f32 / (TURN_ROWS - 1) as f32;
-                (Axis::Turn, (0..TURN_ROWS).map(|row| (Ggx::new(alpha), turn(row))).collect())
+                let (ggx, turns) = (Ggx::new(alpha), Turns::new(Ggx::new(alpha)));
+                (Axis::Turn(turns), (0..TURN_ROWS).map(|row| (ggx, turns.of_row(row))).collect())
             }
             Roughnesses::Any => {
                 let surface = |row| (Ggx::new([row_alpha(row); 2]), 1.0);
@@ -95,7 +95,7 @@ impl Losses {
             surfaces.iter().map(|&(ggx, turn)| row(&lattice, interface, ggx, turn)).collect();
         let means = rows.iter().zip(&surfaces).map(|(row, &(ggx, turn))| row_mean(row, ggx, turn));
         let means = match axis {
-            Axis::Turn => vec![mean_over_turns(&means.collect::<Vec<_>>())],
+            Axis::Turn(turns) => vec![turns.mean(&means.collect::<Vec<_>>())],
             _ => means.collect(),
         };
         Self { axis, rows, means }
@@ -118,10 +118,9 @@ impl Losses {
         let (row, share) = match self.axis {
             Axis::None => (0, 0.0),
             Axis::Alpha => alpha_row(ggx.mean_alpha()),
-            Axis::Turn => {
+            Axis::Turn(turns) => {
                 let [x2, y2] = [w.x * w.x, w.y * w.y];
-                let turn = if x2 + y2 > 0.0 { x2 / (x2 + y2) } else { 0.0 };
-                split(turn * (TURN_ROWS - 1) as f32, TURN_ROWS)
+                turns.row(if x2 + y2 > 0.0 { x2 / (x2 + y2) } else { 0.0 })
             }
             Axis::Smooth(eta) => return 1.0 - boundary(w.z, eta)[0],
         };
@@ -264,15 +263,48 @@ fn row_mean(row: &[f32; NODES], ggx: Ggx, turn: f32) -> f32 {
     sum as f32
 }
 
-/// The mean over φ of what is known in steps of cos² φ.
-fn mean_over_turns(means: &[f32]) -> f32 {
-    const STEPS: u32 = 1024;
-    let at = |i: u32| {
-        let phi = std::f32::consts::FRAC_PI_2 * (i as f32 + 0.5) / STEPS as f32;
-        let (row, share) = split(phi.cos().powi(2) * (means.len() - 1) as f32, means.len());
-        f64::from(means[row] + share * (means[row + 1] - means[row]))
-    };
-    ((0..STEPS).map(at).sum::<f64>() / f64::from(STEPS)) as f32
+/// Directions around the normal, of which each has another roughness α in its plane: α² = αx² cos² φ + αy² sin² φ. Rows are at equal steps of
+/// ln α.
+#[derive(Clone, Copy, Debug)]
+struct Turns {
+    alpha2: [f32; 2],
+    /// ln of the smaller α², and the number of rows per unit from there.
+    start: f32,
+    scale: f32,
+}
+
+impl Turns {
+    fn new(ggx: Ggx) -> Self {
+        let alpha2 = [1.0, 0.0].map(|turn| alpha_at(ggx, turn).powi(2) as f32);
+        let [start, end] = [alpha2[0].min(alpha2[1]).ln(), alpha2[0].max(alpha2[1]).ln()];
+        Self { alpha2, start, scale: (TURN_ROWS - 1) as f32 / (end - start) }
+    }
+
+    /// The row before a direction with this cos² φ, and where it stands between that and the next.
+    #[inline]
+    fn row(&self, turn: f32) -> (usize, f32) {
+        let [x, y] = self.alpha2;
+        let at = ((x * turn + y * (1.0 - turn)).ln() - self.start) * self.scale;
+        split(at.clamp(0.0, (TURN_ROWS - 1) as f32), TURN_ROWS)
+    }
+
+    /// cos² φ of a row.
+    fn of_row(&self, row: usize) -> f32 {
+        let [x, y] = self.alpha2;
+        let alpha2 = (self.start + row as f32 / self.scale).exp();
+        ((alpha2 - y) / (x - y)).clamp(0.0, 1.0)
+    }
+
+    /// The mean over φ of what is known for each row.
+    fn mean(&self, of_rows: &[f32]) -> f32 {
+        const STEPS: u32 = 4096;
+        let at = |i: u32| {
+            let phi = std::f32::consts::FRAC_PI_2 * (i as f32 + 0.5) / STEPS as f32;
+            let (row, share) = self.row(phi.cos().powi(2));
+            f64::from(of_rows[row] + share * (of_rows[row + 1] - of_rows[row]))
+        };
+        ((0..STEPS).map(at).sum::<f64>() / f64::from(STEPS)) as f32
+    }
 }
 
 /// Points of the unit square: multiples of the golden ratio.
