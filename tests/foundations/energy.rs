@@ -303,7 +303,7 @@ fn turned(w: Vec3, by: f32) -> Vec3 {
 #[test]
 fn rough_surfaces_lose_nothing() {
     let white = Spectrum::WHITE;
-    let cosines = [1.0, 0.9, 0.6, 0.3, 0.1, 0.03, 0.003, 1e-4, -1.0, -0.7, -0.2, -0.01];
+    let cosines = [1.0, 0.6, 0.1, 0.003, -0.7, -0.2, -0.01];
     let alphas = [0.0, 1e-4, 0.02, 0.2, 0.6, 1.0];
     let any = Losses::of_mirrors(Roughnesses::Any);
     parallel(alphas.len() * 2, |i| {

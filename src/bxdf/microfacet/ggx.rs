@@ -100,6 +100,12 @@ impl Ggx {
         Vec2::new(if turn < 0.0 { turn + 1.0 } else { turn }, (1.0 - c.z) / (1.0 + h.z))
     }
 
+    /// Whether the roughness is the same to all sides.
+    #[inline]
+    pub(in crate::bxdf) fn is_isotropic(&self) -> bool {
+        self.alpha[0] == self.alpha[1]
+    }
+
     /// The roughness that a surface has on the average over its directions.
     #[inline]
     pub(in crate::bxdf) fn mean_alpha(&self) -> f32 {

@@ -80,7 +80,9 @@ impl Losses {
 
     fn new(interface: Interface, roughnesses: Roughnesses) -> Self {
         let (axis, surfaces): (_, Vec<(Ggx, f32)>) = match roughnesses {
-            Roughnesses::Constant([x, y]) if x == y => (Axis::None, vec![(Ggx::new([x, y]), 1.0)]),
+            Roughnesses::Constant(alpha) if Ggx::new(alpha).is_isotropic() => {
+                (Axis::None, vec![(Ggx::new(alpha), 1.0)])
+            }
             Roughnesses::Constant(alpha) => {
                 let (ggx, turns) = (Ggx::new(alpha), Turns::new(Ggx::new(alpha)));
                 (Axis::Turn(turns), (0..TURN_ROWS).map(|row| (ggx, turns.of_row(row))).collect())
