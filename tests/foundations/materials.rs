@@ -1,9 +1,17 @@
 //! Materials: what they make of their textures.
 
-use lobe::bxdf::{Arena, BxdfFlags, BxdfSample};
+use lobe::bxdf::fresnel::Fresnel;
+use lobe::bxdf::{
+    Arena, BoundaryLosses, BxDF, BxdfFlags, BxdfSample, FresnelMicrofacet, Losses,
+    MicrofacetReflection, Roughnesses,
+};
+use lobe::check::with_lobes;
 use lobe::glam::{Vec2, Vec3};
 use lobe::interaction::SurfaceInteraction;
-use lobe::material::{GlassMaterial, Material, MatteMaterial, MirrorMaterial};
+use lobe::material::{
+    GlassMaterial, Material, MatteMaterial, MetalMaterial, MirrorMaterial, MixMaterial,
+    PlasticMaterial, RetroMaterial, Roughness, ThinGlassMaterial, TranslucentMaterial,
+};
 use lobe::{Spectrum, TriangleMesh};
 
 /// A hit on the xz plane, seen from above or below, and the event that these sample values draw.
@@ -75,4 +83,115 @@ fn a_roughness_replaces_a_sigma() {
     assert_ne!(f(&matte()), eon);
     // Clamped.
     assert_eq!(f(&matte().with_roughness(7.0)), f(&matte().with_roughness(1.0)));
+}
+
+const WO: Vec3 = Vec3::new(0.48, 0.36, 0.8);
+
+/// f of a material for a pair of directions, in coordinates in which u is x and v is y.
+fn f(material: &dyn Material, wo: Vec3, wi: Vec3) -> [f32; 3] {
+    with_lobes(material, |bsdf| bsdf.f(wo, wi, BxdfFlags::all()).to_array())
+}
+
+/// Both ways to write a roughness, and each axis. Caught: the root for the square; the roughness along u for that along v; a frame that does not
+/// follow u; the means of losses of white metal for those of gold.
+#[test]
+fn rough_metals_are_their_lobes() {
+    let gold = Fresnel::Conductor { eta: [0.222, 0.428, 1.334], k: [3.208, 2.461, 1.872] };
+    let wi = Vec3::new(-0.3, -0.1, 0.9).normalize();
+    let named = || MetalMaterial::named("gold").unwrap();
+    for (roughness, alpha) in [
+        (Roughness::alpha(0.3), [0.3, 0.3]),
+        (Roughness::perceptual(0.3), [0.09, 0.09]),
+        (Roughness::alpha(0.3).across(0.1), [0.3, 0.1]),
+        (Roughness::perceptual(0.3).across(0.7), [0.09, 0.49]),
+        (Roughness::alpha(7.0), [1.0, 1.0]),
+    ] {
+        let losses = Losses::of_mirrors(Roughnesses::Constant(alpha));
+        let lobe = MicrofacetReflection::new(alpha, gold).and_multiple(&losses, gold.mean());
+        let found = f(&named().with_roughness(roughness), WO, wi);
+        for (a, b) in found.into_iter().zip(lobe.f(WO, wi).to_array()) {
+            assert!((a - b).abs() < 1e-4 * b, "{alpha:?}: {a}, expected {b}");
+        }
+    }
+    assert!(MetalMaterial::named("unobtainium").is_none());
+}
+
+/// Caught: another roughness; kr and kt exchanged.
+#[test]
+fn rough_glass_is_its_lobe() {
+    let [kr, kt] = [Spectrum::new(0.9, 0.5, 0.1), Spectrum::new(0.2, 0.4, 0.8)];
+    let glass = GlassMaterial::new(1.5).with_kr(kr).with_kt(kt);
+    let glass = glass.with_roughness(Roughness::alpha(0.4).across(0.2));
+    let losses = BoundaryLosses::new(1.5, Roughnesses::Constant([0.4, 0.2]));
+    let lobe = FresnelMicrofacet::new(kr, kt, [0.4, 0.2], &losses);
+    for wi in [Vec3::new(-0.3, -0.1, 0.9), Vec3::new(-0.4, -0.2, -0.9)].map(Vec3::normalize) {
+        for (a, b) in f(&glass, WO, wi).into_iter().zip(lobe.f(WO, wi).to_array()) {
+            assert!((a - b).abs() < 1e-4 * b && b > 0.0, "{wi}: {a}, expected {b}");
+        }
+    }
+}
+
+/// The fractions of light that the sum of a material's lobes sends to each side. Caught: kd of one side left undivided; the shares of a mixture and of
+/// retro-reflection exchanged.
+#[test]
+fn weights_of_lobes_add_up() {
+    let pi = std::f32::consts::PI;
+    let close = |found: [f32; 3], expected: [f32; 3]| assert_close(found, expected, "weights");
+    let up = Vec3::new(0.1, -0.5, 0.8).normalize();
+    let down = Vec3::new(up.x, up.y, -up.z);
+    let paper = TranslucentMaterial::new([0.8, 0.6, 0.4], 0.25);
+    close(f(&paper, WO, up), [0.8, 0.6, 0.4].map(|k| 0.75 * k / pi));
+    close(f(&paper, WO, down), [0.8, 0.6, 0.4].map(|k| 0.25 * k / pi));
+
+    let mix = |amount: f32| {
+        MixMaterial::new(MatteMaterial::new([0.8; 3]), MatteMaterial::new([0.4; 3]), amount)
+    };
+    for (amount, expected) in [(0.0, 0.8), (0.25, 0.7), (1.0, 0.4), (7.0, 0.4)] {
+        close(f(&mix(amount), WO, up), [expected / pi; 3]);
+    }
+
+    let retro =
+        |weight: f32| RetroMaterial::new([0.9; 3], weight).with_roughness(Roughness::alpha(0.2));
+    let mirrored = Vec3::new(-WO.x, -WO.y, WO.z);
+    let [all, none, some] =
+        [1.0, 0.0, 0.25].map(|w| [f(&retro(w), WO, WO)[0], f(&retro(w), WO, mirrored)[0]]);
+    assert!((all[0] - none[1]).abs() < 1e-4 * all[0] && (all[1] - none[0]).abs() < 1e-4);
+    for i in 0..2 {
+        let expected = 0.25 * all[i] + 0.75 * none[i];
+        assert!((some[i] - expected).abs() < 1e-4 * expected, "{some:?}");
+    }
+}
+
+/// A mixture takes the tangents of the one of its materials that has any. Caught: the first one's frame for both.
+#[test]
+fn mixtures_keep_the_direction_of_brushing() {
+    let brushed =
+        || MetalMaterial::named("iron").unwrap().with_roughness(Roughness::alpha(0.5).across(0.05));
+    let wi = Vec3::new(-0.3, -0.1, 0.9).normalize();
+    let alone = f(&brushed(), WO, wi)[0];
+    let black = || MatteMaterial::new([0.0; 3]);
+    for mix in
+        [MixMaterial::new(brushed(), black(), 0.5), MixMaterial::new(black(), brushed(), 0.5)]
+    {
+        let half = f(&mix, WO, wi)[0];
+        assert!((half - 0.5 * alone).abs() < 1e-4 * alone, "{half}, of {alone}");
+    }
+}
+
+/// What a smooth coat and a pane reflect at the normal: F = 0.04. Caught: F of the pane's first side alone.
+#[test]
+fn coats_and_panes_reflect_by_fresnel() {
+    let at_normal = |material: &dyn Material, uc: f32| {
+        with_lobes(material, |bsdf| {
+            let sample = bsdf.sample_f(Vec3::Z, uc, Vec2::splat(0.3), BxdfFlags::all()).unwrap();
+            (sample.is_specular(), sample.f.to_array()[0] * sample.wi.z.abs())
+        })
+    };
+    let (is_specular, share) = at_normal(&PlasticMaterial::new([0.5; 3], 1.5), 0.0);
+    assert!(is_specular && (share - 0.04).abs() < 1e-5, "{share}");
+    let pane = ThinGlassMaterial::new(1.5).with_kr([0.5; 3]).with_kt([0.25; 3]);
+    let (is_specular, share) = at_normal(&pane, 0.0);
+    assert!(is_specular && (share - 0.5 * 0.08 / 1.04).abs() < 1e-5, "{share}");
+    let (is_specular, share) = at_normal(&pane, 0.9);
+    assert!(is_specular && (share - 0.25 * (1.0 - 0.08 / 1.04)).abs() < 1e-5, "{share}");
 }
