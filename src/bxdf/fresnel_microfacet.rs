@@ -14,7 +14,7 @@ use crate::spectrum::Spectrum;
 ///
 /// Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", equations 20 and 21, the second divided by η²: paths
 /// start at the camera. What single scattering loses, up to 69 %, goes to both sides in proportion to their [`BoundaryLosses`]: with
-/// η² taken out, a boundary that absorbs nothing is white from both sides, at every angle and roughness, within 1e-3. Normals are drawn by
+/// η² taken out, a boundary that absorbs nothing is white from both sides, at every angle and roughness, within 1e-3, or 2e-3 if that differs by axis. Normals are drawn by
 /// spherical caps without a bound, which would cut off refracted light.
 ///
 /// Surfaces that f32 does not tell from smooth ones are specular: with a roughness, or a roughness times |η - 1|, below
@@ -29,7 +29,7 @@ pub struct FresnelMicrofacet<'a> {
     losses: &'a BoundaryLosses,
 }
 
-/// What there is to know about a pair of directions.
+/// Two directions, mirrored so that wo is above, and the relative index.
 struct Pair {
     /// Both as if wo were above.
     wo: Vec3,

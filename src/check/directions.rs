@@ -22,6 +22,7 @@ struct Tally {
     of_specular: [Mean; 3],
     /// η of refracted samples.
     eta: f32,
+    refracted: bool,
     /// By what fraction densities change when directions are rounded otherwise.
     rounding: Mean,
 }
@@ -120,6 +121,7 @@ fn draw(
         evaluated: [Mean::default(); 3],
         of_specular: [Mean::default(); 3],
         eta: 1.0,
+        refracted: false,
         rounding: Mean::default(),
     };
     for i in 0..count {
@@ -152,8 +154,10 @@ impl Tally {
         };
         let (wo, wi) = (self.wo, sample.wi);
         event(subject, wo, sample, report);
-        if (wi.z > 0.0) != (wo.z > 0.0) {
-            self.eta = sample.eta;
+        if (wi.z > 0.0) != (wo.z > 0.0) && !sample.is_specular() {
+            report.has_several_indices |=
+                self.refracted && (sample.eta - self.eta).abs() > 1e-4 * self.eta;
+            (self.eta, self.refracted) = (sample.eta, true);
         }
         let scale = wi.z.abs() / sample.pdf * sample.eta * sample.eta;
         let weight = sample.f.to_array().map(|f| f64::from(f * scale));
@@ -219,6 +223,9 @@ fn event(subject: &dyn Subject, wo: Vec3, sample: &BxdfSample, report: &mut Repo
 
 /// What is returned: no more than comes in, as much as is promised, and as much by all ways to measure it.
 fn energy(direction: &Direction, options: &Options, runs: u32, report: &mut Report) {
+    if report.has_several_indices {
+        return;
+    }
     // Standard errors that chance exceeds as rarely as the other tests fail.
     let mut limit = 2.0;
     while two_sided(limit) > significance(3 * runs) {

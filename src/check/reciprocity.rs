@@ -41,7 +41,8 @@ pub fn check(subject: &dyn Subject, options: &Options, report: &mut Report) {
 }
 
 fn pair(subject: &dyn Subject, wo: Vec3, wi: Vec3, eta: f32, report: &mut Report) {
-    if wi.z == 0.0 {
+    let crosses = (wo.z > 0.0) != (wi.z > 0.0);
+    if wi.z == 0.0 || crosses && report.has_several_indices {
         return;
     }
     let difference = difference(subject.f(wo, wi) * (eta * eta), subject.f(wi, wo));

@@ -5,14 +5,14 @@ use super::fault::Fault;
 /// How a check is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// Samples from each direction.
+    /// Samples from each direction: at least 1000, for statistics to tell something.
     pub samples: u32,
     /// Seed of the random numbers.
     pub seed: u64,
     /// How much of the light a lobe may lose, or add, that promises to return all of it; `None` without that promise.
     pub white: Option<f64>,
     /// Number of checks that the significance of 0.01 is shared between, by Šidák's correction: a right lobe fails one of so many checks
-    /// with that probability.
+    /// with that probability. At least 1.
     pub checks: u32,
 }
 
@@ -40,6 +40,9 @@ pub struct Report {
     pub findings: Vec<Finding>,
     /// The largest relative difference between f of exchanged directions.
     pub reciprocity: f64,
+    /// Whether light that crosses the surface does so with several indices of refraction, as in a mixture of glass and paper. Which factor
+    /// η² belongs to which part of f is unknown then, so energy and reciprocity are not compared.
+    pub has_several_indices: bool,
 }
 
 impl Report {

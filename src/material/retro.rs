@@ -45,10 +45,11 @@ impl Material for RetroMaterial {
         let lobe = lobe.and_multiple(&self.losses, Spectrum::WHITE);
         if let Some(kr) = reflectance(self.kr.evaluate(si)) {
             let weight = self.weight.evaluate(si).clamp(0.0, 1.0);
-            if weight > 0.0 {
+            // Not false for NaN, which the Bsdf counts.
+            if weight != 0.0 {
                 bsdf.add(arena.lobe(ScaledBxDF::new(RetroReflection::new(lobe), kr * weight)));
             }
-            if weight < 1.0 {
+            if weight != 1.0 {
                 bsdf.add(arena.lobe(ScaledBxDF::new(lobe, kr * (1.0 - weight))));
             }
         }

@@ -103,9 +103,11 @@ const ACROSS: TextureKey<Option<f32>> = TextureKey::of(
     Key::optional("roughness_v", "roughness along v, if it differs from that along u")
         .range(0.0..=1.0),
 );
-const SCALE: Key<RoughnessScale> =
-    Key::new("roughness_is", "GGX's alpha, or its root, whose equal steps look equal")
-        .default(RoughnessScale::Alpha);
+const SCALE: Key<RoughnessScale> = Key::new(
+    "roughness_is",
+    "what the number means: alpha of GGX, or perceptual, the square root of alpha",
+)
+.default(RoughnessScale::Alpha);
 
 /// The keys of a roughness.
 pub(super) const KEYS: [&dyn AnyKey; 3] = [&ROUGHNESS, &ACROSS, &SCALE];

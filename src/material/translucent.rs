@@ -33,10 +33,11 @@ impl Material for TranslucentMaterial {
         let mut bsdf = Bsdf::isotropic(si);
         if let Some(kd) = reflectance(self.kd.evaluate(si)) {
             let transmission = self.transmission.evaluate(si).clamp(0.0, 1.0);
-            if transmission < 1.0 {
+            // Not false for NaN, which the Bsdf counts.
+            if transmission != 1.0 {
                 bsdf.add(LambertianReflection::new(kd * (1.0 - transmission)));
             }
-            if transmission > 0.0 {
+            if transmission != 0.0 {
                 bsdf.add(LambertianTransmission::new(kd * transmission));
             }
         }

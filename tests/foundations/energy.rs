@@ -298,7 +298,7 @@ fn turned(w: Vec3, by: f32) -> Vec3 {
 }
 
 /// White furnaces of glossy lobes with what several facets return: 1 within 1e-3 at every angle and roughness. Anisotropic glass is held to 2e-3,
-/// and anisotropic metal with the losses of an isotropic one to 10 %. Caught: the losses of one side for
+/// and anisotropic metal with the losses of an isotropic one to 20 %. Caught: the losses of one side for
 /// both; means of losses without the cosine; a coat's losses for another index; transmission without 1/η².
 #[test]
 fn rough_surfaces_lose_nothing() {
@@ -313,7 +313,7 @@ fn rough_surfaces_lose_nothing() {
         let losses = Losses::of_mirrors(constant);
         let facets = MicrofacetReflection::new(alpha, Fresnel::NoOp);
         // Brushed surfaces are seen along both axes and, where losses change fastest, beside the smooth one.
-        let turns: &[f32] = if i % 2 == 0 { &[0.0] } else { &[0.0, 1.4] };
+        let turns: &[f32] = if i % 2 == 0 { &[0.0] } else { &[0.0, 1.4, 1.57] };
         let views = || turns.iter().flat_map(|turn| cosines.map(|cos| turned(view(cos), *turn)));
         let held = |lobe: &dyn BxDF, bound: f64, what: &str| {
             for wo in views() {
@@ -322,7 +322,7 @@ fn rough_surfaces_lose_nothing() {
             }
         };
         held(&facets.and_multiple(&losses, white), 1e-3, "metal");
-        let bound = if i % 2 == 0 { 1e-3 } else { 0.1 };
+        let bound = if i % 2 == 0 { 1e-3 } else { 0.2 };
         held(&facets.and_multiple(&any, white), bound, "metal, losses of any roughness");
         for eta in [1.5, 1.05] {
             let losses = BoundaryLosses::new(eta, constant);

@@ -195,3 +195,33 @@ fn coats_and_panes_reflect_by_fresnel() {
     let (is_specular, share) = at_normal(&pane, 0.9);
     assert!(is_specular && (share - 0.25 * (1.0 - 0.08 / 1.04)).abs() < 1e-5, "{share}");
 }
+
+/// A texture that is not a number is counted, not hidden. Caught: a smooth surface, or one without a lobe, for it.
+#[test]
+fn parameters_that_are_no_numbers_are_counted() {
+    let nan = || f32::NAN;
+    let rough = || Roughness::alpha(nan()).across(nan());
+    let all: [(&str, Box<dyn Material>); 6] = [
+        ("metal", Box::new(MetalMaterial::named("gold").unwrap().with_roughness(rough()))),
+        ("glass", Box::new(GlassMaterial::new(1.5).with_roughness(rough()))),
+        ("plastic", Box::new(PlasticMaterial::new([0.5; 3], 1.5).with_roughness(rough()))),
+        ("retro", Box::new(RetroMaterial::new([0.5; 3], nan()))),
+        ("translucent", Box::new(TranslucentMaterial::new([0.5; 3], nan()))),
+        (
+            "mix",
+            Box::new(MixMaterial::new(
+                MatteMaterial::new([0.5; 3]),
+                MatteMaterial::new([0.1; 3]),
+                nan(),
+            )),
+        ),
+    ];
+    for (name, material) in all {
+        with_lobes(&*material, |bsdf| {
+            bsdf.f(WO, Vec3::new(-0.3, -0.1, 0.9).normalize(), BxdfFlags::all());
+            bsdf.f(WO, -WO, BxdfFlags::all());
+            let _ = bsdf.sample_f(WO, 0.5, Vec2::splat(0.5), BxdfFlags::all());
+            assert!(bsdf.rejected() > 0, "{name}");
+        });
+    }
+}

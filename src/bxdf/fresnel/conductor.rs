@@ -46,7 +46,8 @@ fn of_band<F: Float>(cos: F, eta: F, k: F) -> F {
     let square = |x: F| x * x;
     let across = (square(a - c) + b * b, square(a + c) + b * b);
     let along = (square(a * c - sin2) + square(b * c), square(a * c + sin2) + square(b * c));
-    let ratio = |(above, below): (F, F)| F::select(below.gt(zero), above / below, zero);
-    let across = ratio(across);
-    half * across * (one + ratio(along))
+    // 0/0 where nothing refracts: across the plane if there is no boundary, in it if the index is 0.
+    let ratio = |(above, below): (F, F), none: F| F::select(below.gt(zero), above / below, none);
+    let across = ratio(across, zero);
+    half * across * (one + ratio(along, one))
 }

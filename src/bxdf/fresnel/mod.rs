@@ -44,6 +44,13 @@ impl Fresnel {
     /// The cosine-weighted mean of [`evaluate`](Self::evaluate) over directions above the surface: ∫ 2 F cos θ d(cos θ), by Gauss's rule with
     /// six points, to 1e-3.
     pub fn mean(&self) -> Spectrum {
+        if let Self::Dielectric { eta } = *self
+            && eta < 1.0
+        {
+            // Total reflection has an edge. n² times what crosses is the same from both sides.
+            let inverse = Self::Dielectric { eta: 1.0 / eta };
+            return Spectrum::WHITE - (Spectrum::WHITE - inverse.mean()) * (eta * eta);
+        }
         // Abramowitz and Stegun, table 25.4.
         const POINTS: [[f32; 2]; 3] =
             [[0.238_619_2, 0.467_913_93], [0.661_209_4, 0.360_761_57], [0.932_469_5, 0.171_324_5]];

@@ -14,7 +14,7 @@ use crate::simd::Float;
 /// shadowing are Smith's, correlated by height (Heitz 2014, "Understanding the Masking-Shadowing Function").
 ///
 /// With s(w) = √((αx x)² + (αy y)² + z²), Smith's Λ is (s / |z| - 1) / 2, so that all factors are written without a division by a
-/// cosine, and nothing is 0/0 along the surface. All directions are unit vectors above the surface; a direction from below is mirrored first.
+/// cosine, and nothing is 0/0 along the surface. All directions are unit vectors above the surface: callers mirror those from below.
 ///
 /// ```
 /// use lobe::bxdf::Ggx;
@@ -50,13 +50,18 @@ impl Ggx {
     #[inline]
     pub(in crate::bxdf) fn or_smooth(alpha: [f32; 2]) -> Self {
         let [x, y] = alpha;
-        if x.max(y) < Self::MIN_ALPHA { Self { alpha: [0.0; 2] } } else { Self::new(alpha) }
+        if x < Self::MIN_ALPHA && y < Self::MIN_ALPHA {
+            Self { alpha: [0.0; 2] }
+        } else {
+            Self::new(alpha)
+        }
     }
 
     /// The distribution, if the surface is not smooth.
     #[inline]
     pub(in crate::bxdf) fn rough(&self) -> Option<Self> {
-        (self.alpha[0] > 0.0).then_some(*self)
+        // A roughness that is not a number gives values that are none, which the Bsdf counts.
+        (self.alpha[0] != 0.0).then_some(*self)
     }
 
     /// Area of the facets with the normal `m`, per area of the surface and solid angle, in 1/sr.

@@ -12,7 +12,8 @@ use crate::simd::{Block, BlockKernel, Float, InstructionSet};
 pub enum Roughnesses {
     /// One, along x and along y.
     Constant([f32; 2]),
-    /// Any: 65 times the work. Where the two axes differ, the losses are those of their root mean square: up to 10 % too much or too little.
+    /// Any: 65 times the work. Where the two axes differ, the losses are those of their root mean square: a white surface loses or gains up to 5 %
+    /// where one is four times the other, 14 % at ten times, and 20 % beyond.
     Any,
 }
 
@@ -23,8 +24,9 @@ pub enum Roughnesses {
 /// is reciprocal (Kelemen and Szirmay-Kalos 2001; Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks").
 /// [`CoatedDiffuse`](crate::bxdf::CoatedDiffuse) sends it into the base.
 ///
-/// It is integrated when it is made, a few milliseconds for a [constant](Roughnesses::Constant) roughness, so that it fits any index of
-/// refraction and any anisotropy; a surface keeps it for all hits. The largest error is 6e-4.
+/// It is integrated when it is made, about 5 ms for a [constant](Roughnesses::Constant) roughness, 70 ms if it differs by axis, so that it fits any index of
+/// refraction and any anisotropy; a surface keeps it for all hits. The largest error is 6e-4, for an
+/// anisotropic boundary 2e-3.
 #[derive(Clone, Debug)]
 pub struct Losses {
     axis: Axis,

@@ -184,7 +184,9 @@ fn boundaries_have_two_sides() {
 #[test]
 fn means_of_fresnel_are_integrals() {
     let gold = Fresnel::Conductor { eta: [0.2, 0.4, 1.3], k: [3.2, 2.5, 1.9] };
-    for fresnel in [Fresnel::NoOp, gold, Fresnel::Dielectric { eta: 1.5 }] {
+    for fresnel in
+        [Fresnel::NoOp, gold, Fresnel::Dielectric { eta: 1.5 }, Fresnel::Dielectric { eta: 0.75 }]
+    {
         let mut mean = [0.0; 3];
         for i in 0..4000 {
             let f = fresnel.evaluate(((i as f32 + 0.5) / 4000.0).sqrt()).to_array();

@@ -80,6 +80,14 @@ fn materials() -> Vec<(&'static str, Box<dyn Material>)> {
             Box::new(MixMaterial::new(gold().with_roughness(brushed()), blue(), 0.4)),
         ),
         (
+            "mix of glass and paper",
+            Box::new(MixMaterial::new(
+                GlassMaterial::new(1.5).with_roughness(Roughness::alpha(0.4)),
+                TranslucentMaterial::new(COLOR, 0.5),
+                0.5,
+            )),
+        ),
+        (
             "mix of glass and a mix",
             Box::new(MixMaterial::new(
                 GlassMaterial::new(1.5).with_roughness(Roughness::alpha(0.4)),
