@@ -24,9 +24,9 @@ pub enum Roughnesses {
 /// is reciprocal (Kelemen and Szirmay-Kalos 2001; Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks").
 /// [`CoatedDiffuse`](crate::bxdf::CoatedDiffuse) sends it into the base.
 ///
-/// It is integrated when it is made, about 5 ms for a [constant](Roughnesses::Constant) roughness, 70 ms if it differs by axis, so that it fits any index of
+/// It is integrated when it is made, about 10 ms for a [constant](Roughnesses::Constant) roughness, 0.1 s if it differs by axis and 0.6 s for such a boundary, so that it fits any index of
 /// refraction and any anisotropy; a surface keeps it for all hits. The largest error is 6e-4, for an
-/// anisotropic boundary 2e-3.
+/// anisotropic boundary 2e-3, and 5e-3 if its roughnesses differ by more than a factor of ten.
 #[derive(Clone, Debug)]
 pub struct Losses {
     axis: Axis,
@@ -61,6 +61,8 @@ struct Interface {
 const NODES: usize = 128;
 const ALPHA_ROWS: usize = 65;
 const TURN_ROWS: usize = 17;
+/// Total reflection has edges.
+const TURN_ROWS_OF_BOUNDARY: usize = 33;
 /// Visible normals of each integral.
 const SAMPLES: usize = 8192;
 
@@ -86,8 +88,9 @@ impl Losses {
                 (Axis::None, vec![(Ggx::new(alpha), 1.0)])
             }
             Roughnesses::Constant(alpha) => {
-                let (ggx, turns) = (Ggx::new(alpha), Turns::new(Ggx::new(alpha)));
-                (Axis::Turn(turns), (0..TURN_ROWS).map(|row| (ggx, turns.of_row(row))).collect())
+                let rows = if interface.transmits { TURN_ROWS_OF_BOUNDARY } else { TURN_ROWS };
+                let (ggx, turns) = (Ggx::new(alpha), Turns::new(Ggx::new(alpha), rows));
+                (Axis::Turn(turns), (0..rows).map(|row| (ggx, turns.of_row(row))).collect())
             }
             Roughnesses::Any => {
                 let surface = |row| (Ggx::new([row_alpha(row); 2]), 1.0);
@@ -275,13 +278,14 @@ struct Turns {
     /// ln of the smaller α², and the number of rows per unit from there.
     start: f32,
     scale: f32,
+    rows: usize,
 }
 
 impl Turns {
-    fn new(ggx: Ggx) -> Self {
+    fn new(ggx: Ggx, rows: usize) -> Self {
         let alpha2 = [1.0, 0.0].map(|turn| alpha_at(ggx, turn).powi(2) as f32);
         let [start, end] = [alpha2[0].min(alpha2[1]).ln(), alpha2[0].max(alpha2[1]).ln()];
-        Self { alpha2, start, scale: (TURN_ROWS - 1) as f32 / (end - start) }
+        Self { alpha2, start, scale: (rows - 1) as f32 / (end - start), rows }
     }
 
     /// The row before a direction with this cos² φ, and where it stands between that and the next.
@@ -289,7 +293,7 @@ impl Turns {
     fn row(&self, turn: f32) -> (usize, f32) {
         let [x, y] = self.alpha2;
         let at = ((x * turn + y * (1.0 - turn)).ln() - self.start) * self.scale;
-        split(at.clamp(0.0, (TURN_ROWS - 1) as f32), TURN_ROWS)
+        split(at.clamp(0.0, (self.rows - 1) as f32), self.rows)
     }
 
     /// cos² φ of a row.
