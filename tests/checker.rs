@@ -5,7 +5,7 @@ use lobe::bxdf::{BxDF, BxdfFlags};
 use lobe::check::{Options, check, faulty};
 use lobe::glam::Vec3;
 
-/// Lobes with one fault each. Caught: each of the comparisons left out.
+/// Lobes with one fault each.
 #[test]
 fn faults_are_named() {
     let options = Options { samples: 1 << 16, white: Some(1e-3), ..Options::default() };
@@ -31,7 +31,7 @@ impl BxDF for HalfMoon {
     }
 }
 
-/// A value that jumps, which quadrature has to follow. Caught: cells that are not divided where values differ.
+/// A value that jumps, which quadrature has to follow.
 #[test]
 fn a_lobe_of_another_crate_passes() {
     let report = check(&HalfMoon, &Options::default());

@@ -12,7 +12,7 @@ use crate::spectrum::Spectrum;
 /// f = F(wo · m) D(m) G(wo, wi) / (4 cos θo cos θi), where m is between wo and wi (Torrance and Sparrow 1967; PBRT 3rd edition,
 /// section 8.4.4). It leaves out light that meets a second facet: up to 69 % of what all facets reflect. With
 /// [`and_multiple`](Self::and_multiple), that comes back: a metal that reflects all light is white at every angle and roughness within
-/// 6e-4. Directions are drawn by bounded spherical caps.
+/// 6e-4, if the losses are those of its own roughness. Directions are drawn by bounded spherical caps.
 ///
 /// Both sides look alike. Surfaces that f32 does not tell from smooth ones, with a roughness below [`Ggx::MIN_ALPHA`], are specular.
 #[doc(alias = "glossy")]

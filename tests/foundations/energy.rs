@@ -298,8 +298,7 @@ fn turned(w: Vec3, by: f32) -> Vec3 {
 }
 
 /// White furnaces of glossy lobes with what several facets return: 1 within 1e-3 at every angle and roughness. Anisotropic glass is held to 2e-3,
-/// and anisotropic metal with the losses of an isotropic one to 20 %. Caught: the losses of one side for
-/// both; means of losses without the cosine; a coat's losses for another index; transmission without 1/η².
+/// and anisotropic metal with the losses of an isotropic one to 20 %.
 #[test]
 fn rough_surfaces_lose_nothing() {
     let white = Spectrum::WHITE;

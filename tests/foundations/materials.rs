@@ -92,8 +92,7 @@ fn f(material: &dyn Material, wo: Vec3, wi: Vec3) -> [f32; 3] {
     with_lobes(material, |bsdf| bsdf.f(wo, wi, BxdfFlags::all()).to_array())
 }
 
-/// Both ways to write a roughness, and each axis. Caught: the root for the square; the roughness along u for that along v; a frame that does not
-/// follow u; the means of losses of white metal for those of gold.
+/// Both ways to write a roughness, and each axis.
 #[test]
 fn rough_metals_are_their_lobes() {
     let gold = Fresnel::Conductor { eta: [0.222, 0.428, 1.334], k: [3.208, 2.461, 1.872] };
@@ -116,7 +115,6 @@ fn rough_metals_are_their_lobes() {
     assert!(MetalMaterial::named("unobtainium").is_none());
 }
 
-/// Caught: another roughness; kr and kt exchanged.
 #[test]
 fn rough_glass_is_its_lobe() {
     let [kr, kt] = [Spectrum::new(0.9, 0.5, 0.1), Spectrum::new(0.2, 0.4, 0.8)];
@@ -131,8 +129,7 @@ fn rough_glass_is_its_lobe() {
     }
 }
 
-/// The fractions of light that the sum of a material's lobes sends to each side. Caught: kd of one side left undivided; the shares of a mixture and of
-/// retro-reflection exchanged.
+/// The fractions of light that the sum of a material's lobes sends to each side.
 #[test]
 fn weights_of_lobes_add_up() {
     let pi = std::f32::consts::PI;
@@ -162,7 +159,7 @@ fn weights_of_lobes_add_up() {
     }
 }
 
-/// A mixture takes the tangents of the one of its materials that has any. Caught: the first one's frame for both.
+/// A mixture takes the tangents of the one of its materials that has any.
 #[test]
 fn mixtures_keep_the_direction_of_brushing() {
     let brushed =
@@ -178,7 +175,7 @@ fn mixtures_keep_the_direction_of_brushing() {
     }
 }
 
-/// What a smooth coat and a pane reflect at the normal: F = 0.04. Caught: F of the pane's first side alone.
+/// What a smooth coat and a pane reflect at the normal: F = 0.04.
 #[test]
 fn coats_and_panes_reflect_by_fresnel() {
     let at_normal = |material: &dyn Material, uc: f32| {
@@ -196,7 +193,7 @@ fn coats_and_panes_reflect_by_fresnel() {
     assert!(is_specular && (share - 0.25 * (1.0 - 0.08 / 1.04)).abs() < 1e-5, "{share}");
 }
 
-/// A texture that is not a number is counted, not hidden. Caught: a smooth surface, or one without a lobe, for it.
+/// A texture that is not a number is counted, not hidden.
 #[test]
 fn parameters_that_are_no_numbers_are_counted() {
     let nan = || f32::NAN;

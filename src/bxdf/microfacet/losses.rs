@@ -24,8 +24,8 @@ pub enum Roughnesses {
 /// is reciprocal (Kelemen and Szirmay-Kalos 2001; Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks").
 /// [`CoatedDiffuse`](crate::bxdf::CoatedDiffuse) sends it into the base.
 ///
-/// It is integrated when it is made, about 10 ms for a [constant](Roughnesses::Constant) roughness, 0.1 s if it differs by axis and 0.6 s for such a boundary, so that it fits any index of
-/// refraction and any anisotropy; a surface keeps it for all hits. The largest error is 6e-4, for an
+/// It is integrated when it is made, so that it fits any index of refraction and any anisotropy: about 10 ms for a
+/// [constant](Roughnesses::Constant) roughness, 0.1 s if it differs by axis, 0.6 s for such a boundary. A surface keeps it for all hits. The largest error is 6e-4, for an
 /// anisotropic boundary 2e-3, and 5e-3 if its roughnesses differ by more than a factor of ten.
 #[derive(Clone, Debug)]
 pub struct Losses {
@@ -49,7 +49,7 @@ enum Axis {
     Smooth(f32),
 }
 
-/// Where a surface loses light.
+/// What reflects: mirrors, or a boundary.
 #[derive(Clone, Copy)]
 struct Interface {
     /// Index of refraction on the far side over that on the near side; `None` if all light is reflected.

@@ -22,7 +22,7 @@ fn grid() -> impl Iterator<Item = Vec2> {
     steps().flat_map(move |x| steps().map(move |y| Vec2::new(x, y)))
 }
 
-/// Caught: the inverse without the stretch of the normal; a turn that begins elsewhere. Along the edges of the square, where normals are along the
+/// Along the edges of the square, where normals are along the
 /// surface, f32 does not tell sample values apart.
 #[test]
 fn normals_have_an_inverse() {
@@ -54,7 +54,7 @@ fn lambda([ax, ay]: [f32; 2], w: DVec3) -> f64 {
     ((1.0 + across / (w.z * w.z)).sqrt() - 1.0) / 2.0
 }
 
-/// D, G1 and G near the pole and along the surface, for any roughness. Caught: z² left out of D's sum, and G with separate masking.
+/// D, G1 and G near the pole and along the surface, for any roughness.
 #[test]
 fn values_are_those_of_f64() {
     for alpha in ALPHAS {
@@ -86,8 +86,7 @@ fn values_are_those_of_f64() {
     }
 }
 
-/// ∫ D(m) cos θm dm = 1: the facets cover the surface; ∫ D_wo(m) dm = 1: those that are seen from wo cover what is seen of it. Caught: α in place of
-/// α² in D.
+/// ∫ D(m) cos θm dm = 1: the facets cover the surface; ∫ D_wo(m) dm = 1: those that are seen from wo cover what is seen of it.
 #[test]
 fn facets_cover_the_surface() {
     for alpha in ALPHAS.into_iter().skip(2) {

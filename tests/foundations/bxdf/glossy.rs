@@ -12,7 +12,7 @@ use super::{VIEWS, kept, rough_glass, view, white_facets};
 use crate::common::Rng;
 use crate::common::sphere::gauss;
 
-/// f, as the formula of Torrance and Sparrow has it, with G of Heitz 2014. Caught: a factor 1/4 twice.
+/// f, as the formula of Torrance and Sparrow has it, with G of Heitz 2014.
 #[test]
 fn reflection_is_torrance_and_sparrow() {
     let gold = Fresnel::Conductor { eta: [0.2, 0.4, 1.3], k: [3.2, 2.5, 1.9] };
@@ -37,7 +37,7 @@ fn reflection_is_torrance_and_sparrow() {
 }
 
 /// Surfaces that f32 does not tell from smooth ones are specular, from the same roughness for all lobes of a material; at that
-/// roughness, they return as much as rough ones. Caught: the roughness of one axis taken for both; a rough boundary with the index 1 + 1e-6.
+/// roughness, they return as much as rough ones.
 #[test]
 fn smooth_surfaces_are_specular() {
     let is_specular = |lobe: &dyn BxDF| lobe.flags().contains(BxdfFlags::SPECULAR);
@@ -76,7 +76,7 @@ fn smooth_surfaces_are_specular() {
     }
 }
 
-/// ∫ f cos θ over a retro-reflective lobe is that over its base. Caught: the normal component mirrored too.
+/// ∫ f cos θ over a retro-reflective lobe is that over its base.
 #[test]
 fn retro_reflection_has_the_albedo_of_its_base() {
     for alpha in [[0.2, 0.2], [0.2, 0.6], [1.0, 1.0]] {
@@ -120,7 +120,7 @@ fn integral(lobe: &dyn BxDF, wo: Vec3) -> f64 {
     sum
 }
 
-/// A smooth coat: f of the base as in Mitsuba's `plastic` with `nonlinear`, in f64. Caught: 1/η² of the light that leaves left out.
+/// A smooth coat: f of the base as in Mitsuba's `plastic` with `nonlinear`, in f64.
 #[test]
 fn smooth_coats_have_a_closed_form() {
     let (eta, r) = (1.5_f32, 0.6_f32);
@@ -142,7 +142,7 @@ fn smooth_coats_have_a_closed_form() {
     }
 }
 
-/// R = 2F / (1 + F), straight through. Caught: F of one boundary alone.
+/// R = 2F / (1 + F), straight through.
 #[test]
 fn panes_reflect_to_and_fro() {
     let pane = ThinFresnelSpecular::new(Spectrum::WHITE, Spectrum::WHITE, 1.5);
@@ -166,7 +166,7 @@ fn panes_reflect_to_and_fro() {
     }
 }
 
-/// A rough boundary exchanges its sides with 1/η. Caught: losses of the sides exchanged.
+/// A rough boundary exchanges its sides with 1/η.
 #[test]
 fn boundaries_have_two_sides() {
     let [above, below] = [rough_glass([0.4, 0.2], 1.5), rough_glass([0.4, 0.2], 1.0 / 1.5)];
@@ -180,7 +180,7 @@ fn boundaries_have_two_sides() {
     }
 }
 
-/// The mean of F over cos² θ. Caught: weights of Gauss's rule exchanged.
+/// The mean of F over cos² θ.
 #[test]
 fn means_of_fresnel_are_integrals() {
     let gold = Fresnel::Conductor { eta: [0.2, 0.4, 1.3], k: [3.2, 2.5, 1.9] };
