@@ -10,10 +10,10 @@ use lobe::glam::Vec3;
 fn faults_are_named() {
     let options = Options { samples: 1 << 16, white: Some(1e-3), ..Options::default() };
     let all = faulty();
-    assert!(all.len() == 11);
+    assert!(all.len() == 13);
     for faulty in all {
         let report = check(&*faulty.lobe, &options);
-        let is_named = report.findings.iter().any(|f| faulty.expected.contains(&f.fault));
+        let is_named = report.findings.iter().any(|f| faulty.expected.contains(&f.contract));
         assert!(is_named, "{}: {:?}", faulty.name, report.findings);
     }
 }

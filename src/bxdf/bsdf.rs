@@ -5,19 +5,12 @@ use std::cell::Cell;
 use arrayvec::ArrayVec;
 use glam::{Vec2, Vec3};
 
-use super::{Arena, BxDF, BxdfFlags, BxdfSample, Lobe, ScaledBxDF};
+use super::shares::Shares;
+use super::{BxDF, BxdfFlags, BxdfSample, Lobe, MAX_LOBES};
 use crate::geometry::Frame;
-use crate::geometry::float::ONE_MINUS_EPSILON;
 use crate::interaction::SurfaceInteraction;
 use crate::simd::Float;
 use crate::spectrum::Spectrum;
-
-/// The most lobes that one [`Bsdf`] holds (PBRT's `MaxBxDFs`).
-pub const MAX_LOBES: usize = 8;
-
-/// Fraction of the selection probability that is uniform over the lobes; the rest is proportional to
-/// [`BxDF::albedo_estimate`]. So a wrong estimate adds noise but never loses light.
-const EQUAL_PART: f32 = 0.1;
 
 /// The bidirectional scattering distribution function at one point: a sum of lobes, evaluated in world space
 /// (PBRT 3rd edition, section 9.1).
@@ -58,9 +51,17 @@ const EQUAL_PART: f32 = 0.1;
 pub struct Bsdf<'a> {
     frame: Frame,
     ng: Vec3,
-    /// Each lobe with its flags, cached so that lobes of other kinds are skipped without a call.
-    lobes: ArrayVec<(Lobe<'a>, BxdfFlags), MAX_LOBES>,
+    terms: ArrayVec<Term<'a>, MAX_LOBES>,
     rejected: Cell<u32>,
+}
+
+/// One term of the sum.
+#[derive(Clone, Copy)]
+struct Term<'a> {
+    lobe: Lobe<'a>,
+    scale: Spectrum,
+    /// Those of the lobe, cached so that lobes of other kinds are skipped without a call.
+    flags: BxdfFlags,
 }
 
 impl<'a> Bsdf<'a> {
@@ -94,7 +95,7 @@ impl<'a> Bsdf<'a> {
 
     #[inline]
     fn in_frame(frame: Frame, ng: Vec3) -> Self {
-        Self { frame, ng, lobes: ArrayVec::new_const(), rejected: Cell::new(0) }
+        Self { frame, ng, terms: ArrayVec::new_const(), rejected: Cell::new(0) }
     }
 
     /// Adds a lobe: one of this crate's by value, any other by reference. A material lends a lobe that it holds
@@ -105,8 +106,14 @@ impl<'a> Bsdf<'a> {
     /// rejected.
     #[inline]
     pub fn add(&mut self, lobe: impl Into<Lobe<'a>>) -> bool {
+        self.add_scaled(lobe, Spectrum::WHITE)
+    }
+
+    /// [Adds](Self::add) a lobe whose values are multiplied by `scale`. In `[0, 1]` per band, it conserves energy if the lobe does.
+    #[inline]
+    pub fn add_scaled(&mut self, lobe: impl Into<Lobe<'a>>, scale: Spectrum) -> bool {
         let lobe = lobe.into();
-        let added = self.lobes.try_push((lobe, lobe.flags())).is_ok();
+        let added = self.terms.try_push(Term { lobe, scale, flags: lobe.flags() }).is_ok();
         if !added {
             self.reject();
         }
@@ -115,7 +122,7 @@ impl<'a> Bsdf<'a> {
 
     /// The lobes of two surfaces, scaled by weights in `[0, 1]`, in the frame of the first. If its tangents are arbitrary and both have the
     /// same normal, they are those of the second.
-    pub(crate) fn mixed(&self, weight: f32, other: &Self, by: f32, arena: &'a Arena) -> Self {
+    pub(crate) fn mixed(&self, weight: f32, other: &Self, by: f32) -> Self {
         let of_normal = Frame::from_normal(self.frame.n);
         let frame = match self.frame == of_normal && other.frame.n == self.frame.n {
             true => other.frame,
@@ -123,9 +130,9 @@ impl<'a> Bsdf<'a> {
         };
         let rejected = Cell::new(self.rejected() + other.rejected());
         let mut bsdf = Self { rejected, ..Self::in_frame(frame, self.ng) };
-        for (lobes, weight) in [(&self.lobes, weight), (&other.lobes, by)] {
-            for &(lobe, _) in lobes {
-                bsdf.add(arena.lobe(ScaledBxDF::new(lobe, Spectrum::splat(weight))));
+        for (terms, weight) in [(&self.terms, weight), (&other.terms, by)] {
+            for &Term { lobe, scale, .. } in terms {
+                bsdf.add_scaled(lobe, scale * weight);
             }
         }
         bsdf
@@ -152,19 +159,19 @@ impl<'a> Bsdf<'a> {
 
     /// Flags of all lobes together.
     pub(crate) fn all_flags(&self) -> BxdfFlags {
-        self.lobes.iter().fold(BxdfFlags::empty(), |all, (_, flags)| all | *flags)
+        self.terms.iter().fold(BxdfFlags::empty(), |all, term| all | term.flags)
     }
 
     /// Whether all lobes are specular: light samples, which are given directions, find nothing.
     #[inline]
     pub(super) fn is_specular(&self) -> bool {
         let spread = BxdfFlags::DIFFUSE | BxdfFlags::GLOSSY;
-        self.lobes.iter().all(|(_, kind)| !kind.intersects(spread))
+        self.terms.iter().all(|term| !term.flags.intersects(spread))
     }
 
-    /// All lobes, in the order in which they were added.
-    pub fn lobes(&self) -> impl ExactSizeIterator<Item = &Lobe<'a>> {
-        self.lobes.iter().map(|(lobe, _)| lobe)
+    /// All lobes, in the order in which they were added, each with its scale.
+    pub fn lobes(&self) -> impl ExactSizeIterator<Item = (&Lobe<'a>, Spectrum)> {
+        self.terms.iter().map(|term| (&term.lobe, term.scale))
     }
 
     /// Number of lobes whose flags are all contained in `flags`.
@@ -176,9 +183,9 @@ impl<'a> Bsdf<'a> {
     /// Whether [`sample_f`](Bsdf::sample_f) uses `uc`: if there are several lobes, or one that uses it.
     #[inline]
     pub fn uses_uc(&self) -> bool {
-        match &self.lobes[..] {
+        match &self.terms[..] {
             [] => false,
-            [(lobe, _)] => lobe.uses_uc(),
+            [term] => term.lobe.uses_uc(),
             _ => true,
         }
     }
@@ -191,8 +198,10 @@ impl<'a> Bsdf<'a> {
         if local_wo.z == 0.0 {
             return Spectrum::BLACK;
         }
-        let f = self.sum([wo, wi], [local_wo, self.frame.to_local(wi)], flags);
-        self.guarded(f)
+        let local = [local_wo, self.frame.to_local(wi)];
+        let side = self.side([wo, wi], local);
+        let on_side = self.matching(flags).filter(|term| term.flags.intersects(side));
+        self.guarded(on_side.map(|term| term.scale * term.lobe.f(local[0], local[1])).sum())
     }
 
     /// Samples a world direction `wi`. One of the lobes that match `flags` is selected with a probability
@@ -209,25 +218,29 @@ impl<'a> Bsdf<'a> {
         }
         let shares = self.shares(local_wo, flags);
         let (chosen, uc) = shares.choose(uc);
-        let (lobe, kind) = self.matching(flags).nth(chosen)?;
-        let mut sample = lobe.sample_f(local_wo, uc, u)?;
+        let term = self.matching(flags).nth(chosen)?;
+        let mut sample = term.sample_f(local_wo, uc, u)?;
         let local_wi = sample.wi;
         sample.wi = self.frame.to_world(local_wi);
         if !sample.wi.is_finite() {
             self.reject();
             return None;
         }
-        self.correct_event(&mut sample, kind, local_wo.z, local_wi.z);
-        let (world, local) = ([wo, sample.wi], [local_wo, local_wi]);
-        if sample.is_specular() {
-            sample.pdf *= shares.of(chosen);
-        } else if let Shares::Each(_) = shares {
-            sample.pdf = self.mean_pdf(&shares, local, flags);
-            sample.f = self.sum(world, local, flags);
-        } else if !kind.intersects(self.side(world, local)) {
-            sample.f = Spectrum::BLACK;
+        self.correct_event(&mut sample, term.flags, local_wo.z, local_wi.z);
+        sample.pdf *= shares.of(chosen);
+        if !sample.is_specular() {
+            let local = [local_wo, local_wi];
+            let side = self.side([wo, sample.wi], local);
+            if !term.flags.intersects(side) {
+                sample.f = Spectrum::BLACK;
+            }
+            for (i, other) in self.matching(flags).enumerate().filter(|(i, _)| *i != chosen) {
+                let (f, pdf) = other.f_and_pdf(local, side);
+                sample.f += f;
+                sample.pdf += shares.of(i) * pdf;
+            }
         }
-        if !sample.is_specular() && !kind.intersects(sample.flags & SIDES) {
+        if !sample.is_specular() && !term.flags.intersects(sample.flags & SIDES) {
             self.reject();
         }
         if self.guarded_pdf(sample.pdf) == 0.0 {
@@ -245,7 +258,11 @@ impl<'a> Bsdf<'a> {
         if local[0].z == 0.0 {
             return 0.0;
         }
-        self.guarded_pdf(self.mean_pdf(&self.shares(local[0], flags), local, flags))
+        let shares = self.shares(local[0], flags);
+        let of_terms = self.matching(flags).enumerate();
+        self.guarded_pdf(
+            of_terms.map(|(i, term)| shares.of(i) * term.lobe.pdf(local[0], local[1])).sum(),
+        )
     }
 
     /// [`f`](Bsdf::f) and [`pdf`](Bsdf::pdf) together.
@@ -255,9 +272,14 @@ impl<'a> Bsdf<'a> {
         if local[0].z == 0.0 {
             return (Spectrum::BLACK, 0.0);
         }
-        let f = self.sum([wo, wi], local, flags);
-        let pdf = self.mean_pdf(&self.shares(local[0], flags), local, flags);
-        (self.guarded(f), self.guarded_pdf(pdf))
+        let (side, shares) = (self.side([wo, wi], local), self.shares(local[0], flags));
+        let (mut f, mut mean_pdf) = (Spectrum::BLACK, 0.0);
+        for (i, term) in self.matching(flags).enumerate() {
+            let (of_term, pdf) = term.f_and_pdf(local, side);
+            f += of_term;
+            mean_pdf += shares.of(i) * pdf;
+        }
+        (self.guarded(f), self.guarded_pdf(mean_pdf))
     }
 
     /// Fraction of uniform incident light that is scattered along the world direction `wo`: see [`BxDF::rho_hd`].
@@ -267,12 +289,16 @@ impl<'a> Bsdf<'a> {
         if wo.z == 0.0 {
             return Spectrum::BLACK;
         }
-        self.guarded(self.matching(flags).map(|(lobe, _)| lobe.rho_hd(wo, uc, u)).sum())
+        self.guarded(
+            self.matching(flags).map(|term| term.scale * term.lobe.rho_hd(wo, uc, u)).sum(),
+        )
     }
 
     /// Fraction of uniform incident light that is scattered at all: see [`BxDF::rho_hh`].
     pub fn rho_hh(&self, u1: &[Vec2], uc: &[f32], u2: &[Vec2], flags: BxdfFlags) -> Spectrum {
-        self.guarded(self.matching(flags).map(|(lobe, _)| lobe.rho_hh(u1, uc, u2)).sum())
+        self.guarded(
+            self.matching(flags).map(|term| term.scale * term.lobe.rho_hh(u1, uc, u2)).sum(),
+        )
     }
 
     /// Makes a sample's flags consistent: its side follows from its directions, only a transmission has an
@@ -320,35 +346,11 @@ impl<'a> Bsdf<'a> {
         let frame = &self.frame;
         let is_simple =
             *frame == Frame::from_normal(frame.n) && self.ng == ng && self.rejected() == 0;
-        match &self.lobes[..] {
+        match &self.terms[..] {
             [] if is_simple => Some(None),
-            [(lobe, _)] if is_simple => Some(Some(lobe)),
+            [term] if is_simple && term.scale == Spectrum::WHITE => Some(Some(&term.lobe)),
             _ => None,
         }
-    }
-
-    /// Sum of the matching lobes' values for a pair of directions, in world and in shading coordinates.
-    #[inline]
-    fn sum(&self, world: [Vec3; 2], local: [Vec3; 2], flags: BxdfFlags) -> Spectrum {
-        let side = self.side(world, local);
-        let [wo, wi] = local;
-        let mut f = Spectrum::BLACK;
-        for (lobe, kind) in self.matching(flags) {
-            if kind.intersects(side) {
-                f += lobe.f(wo, wi);
-            }
-        }
-        f
-    }
-
-    /// Density of a pair of local directions, averaged over the lobes by their selection probabilities.
-    #[inline]
-    fn mean_pdf(&self, shares: &Shares, [wo, wi]: [Vec3; 2], flags: BxdfFlags) -> f32 {
-        let mut mean = 0.0;
-        for (i, (lobe, _)) in self.matching(flags).enumerate() {
-            mean += shares.of(i) * lobe.pdf(wo, wi);
-        }
-        mean
     }
 
     /// Selection probability of each lobe that matches `flags`, for a local direction.
@@ -357,17 +359,14 @@ impl<'a> Bsdf<'a> {
         if self.num_components(flags) < 2 {
             return Shares::All;
         }
-        let estimates = self.matching(flags).map(|(lobe, _)| lobe.albedo_estimate(wo));
+        let estimates = self.matching(flags).map(|term| term.albedo_estimate(wo));
         Shares::new(estimates.collect())
     }
 
-    /// The lobes that match `flags`, each with its own flags.
+    /// The terms whose lobes match `flags`.
     #[inline]
-    fn matching(&self, flags: BxdfFlags) -> impl Iterator<Item = (&Lobe<'a>, BxdfFlags)> {
-        self.lobes
-            .iter()
-            .map(|(lobe, kind)| (lobe, *kind))
-            .filter(move |&(_, kind)| flags.contains(kind))
+    fn matching(&self, flags: BxdfFlags) -> impl Iterator<Item = &Term<'a>> {
+        self.terms.iter().filter(move |term| flags.contains(term.flags))
     }
 
     #[inline]
@@ -394,6 +393,30 @@ impl<'a> Bsdf<'a> {
     }
 }
 
+impl Term<'_> {
+    #[inline]
+    fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
+        self.lobe
+            .sample_f(wo, uc, u)
+            .map(|sample| BxdfSample { f: self.scale * sample.f, ..sample })
+    }
+
+    /// Value, if the lobe scatters light to this side, and density.
+    #[inline]
+    fn f_and_pdf(&self, [wo, wi]: [Vec3; 2], side: BxdfFlags) -> (Spectrum, f32) {
+        if !self.flags.intersects(side) {
+            return (Spectrum::BLACK, self.lobe.pdf(wo, wi));
+        }
+        let (f, pdf) = self.lobe.f_and_pdf(wo, wi);
+        (self.scale * f, pdf)
+    }
+
+    #[inline]
+    fn albedo_estimate(&self, wo: Vec3) -> f32 {
+        self.scale.max_component() * self.lobe.albedo_estimate(wo)
+    }
+}
+
 /// Whether pairs of directions are reflections, and whether they are transmissions, from their cosines with the geometric
 /// normal and with the shading normal. Neither, if the normals disagree.
 #[inline(always)]
@@ -408,48 +431,3 @@ fn signs_differ<F: Float>([a, b]: [F; 2]) -> F::Mask {
 }
 
 const SIDES: BxdfFlags = BxdfFlags::REFLECTION.union(BxdfFlags::TRANSMISSION);
-
-/// Selection probability of each lobe.
-enum Shares {
-    /// There is at most one lobe, which is always selected.
-    All,
-    /// Of two or more lobes: at least [`EQUAL_PART`] of a uniform probability.
-    Each(ArrayVec<f32, MAX_LOBES>),
-}
-
-impl Shares {
-    /// Probabilities of two or more lobes, proportional to their estimates except for [`EQUAL_PART`].
-    #[inline(never)]
-    fn new(mut estimates: ArrayVec<f32, MAX_LOBES>) -> Self {
-        for estimate in &mut estimates {
-            // False for NaN as well.
-            *estimate = if *estimate > 0.0 { estimate.min(1.0) } else { 0.0 };
-        }
-        let sum: f32 = estimates.iter().sum();
-        let equal = 1.0 / estimates.len() as f32;
-        for estimate in &mut estimates {
-            let share = if sum > 0.0 { *estimate / sum } else { equal };
-            *estimate = EQUAL_PART * equal + (1.0 - EQUAL_PART) * share;
-        }
-        Self::Each(estimates)
-    }
-
-    #[inline]
-    fn of(&self, lobe: usize) -> f32 {
-        if let Self::Each(shares) = self { shares[lobe] } else { 1.0 }
-    }
-
-    /// The lobe that `uc` selects, and the remainder of `uc`, rescaled to `[0, 1)`.
-    #[inline]
-    fn choose(&self, uc: f32) -> (usize, f32) {
-        let Self::Each(shares) = self else { return (0, uc) };
-        let mut start = 0.0;
-        for (lobe, share) in shares.iter().enumerate() {
-            if uc < start + share || lobe + 1 == shares.len() {
-                return (lobe, ((uc - start) / share).clamp(0.0, ONE_MINUS_EPSILON));
-            }
-            start += share;
-        }
-        (0, uc)
-    }
-}

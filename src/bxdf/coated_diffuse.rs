@@ -39,7 +39,7 @@ impl<'a> CoatedDiffuse<'a> {
         Self { factor, ggx, losses }
     }
 
-    /// What of the light from a direction enters the coat.
+    /// The fraction of light from a direction that enters the coat.
     #[inline]
     fn entering(&self, w: Vec3) -> f32 {
         self.losses.at(&self.ggx, w)

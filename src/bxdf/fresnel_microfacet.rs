@@ -26,17 +26,22 @@ pub struct FresnelMicrofacet<'a> {
     r: [f32; 3],
     t: [f32; 3],
     ggx: Ggx,
+    /// Of light that is lost from above and from below: the mean over directions, and the fraction that leaves on the other side.
+    means: [f32; 2],
+    crossing: [f32; 2],
     losses: &'a BoundaryLosses,
 }
 
-/// Two directions, mirrored so that wo is above, and the relative index.
-struct Pair {
-    /// Both as if wo were above.
+/// A direction from which light is seen, mirrored so that it is above.
+#[derive(Clone, Copy)]
+struct View {
     wo: Vec3,
-    wi: Vec3,
+    /// Whether it was below.
+    is_below: bool,
     /// The index on the far side of wo, over that on its own.
     eta: f32,
-    is_below: bool,
+    /// What single scattering loses.
+    lost: f32,
 }
 
 impl<'a> FresnelMicrofacet<'a> {
@@ -48,25 +53,38 @@ impl<'a> FresnelMicrofacet<'a> {
         let spread = (losses.eta() - 1.0).abs();
         let bends = Ggx::or_smooth([x * spread, y * spread]).rough().is_some();
         let ggx = Ggx::or_smooth(if bends { alpha } else { [0.0; 2] });
-        Self { r: r.to_array(), t: t.to_array(), ggx, losses }
+        let means = losses.means(&ggx);
+        let (r, t, crossing) = (r.to_array(), t.to_array(), losses.crossing(means));
+        Self { r, t, ggx, means, crossing, losses }
     }
 
+    /// `None` if the surface is smooth.
     #[inline]
-    fn pair(&self, wo: Vec3, wi: Vec3) -> Pair {
-        let [up, wi] = above(wo, wi);
-        Pair { wo: up, wi, eta: relative(self.losses.eta(), wo), is_below: wo.z < 0.0 }
+    fn view(&self, wo: Vec3) -> Option<View> {
+        let (ggx, is_below) = (self.ggx.rough()?, wo.z < 0.0);
+        let [up, _] = above(wo, wo);
+        let lost = self.losses.side(is_below).at(&ggx, up);
+        Some(View { wo: up, is_below, eta: relative(self.losses.eta(), wo), lost })
+    }
+
+    /// Value and density, where `wi` is mirrored with `wo`.
+    #[inline(always)]
+    fn value_and_density(&self, view: View, wi: Vec3) -> (Spectrum, f32) {
+        let [single, multiple] = [self.single(view, wi), self.multiple(view, wi)];
+        let color = Spectrum::from(if wi.z > 0.0 { self.r } else { self.t });
+        (color * (single[0] + multiple[0]), (1.0 - view.lost) * single[1] + view.lost * multiple[1])
     }
 
     /// Value of single scattering and its density, without the colour.
-    #[inline]
-    fn once(&self, &Pair { wo, wi, eta, is_below }: &Pair) -> [f32; 2] {
+    #[inline(always)]
+    fn single(&self, View { wo, is_below, eta, .. }: View, wi: Vec3) -> [f32; 2] {
         // Visible normals, but for their area and the cosine.
-        let visible = 2.0 / (wo.z + self.ggx.stretch(wo.into()));
+        let visible = 2.0 / (wo.z + self.ggx.stretched_length(wo.into()));
         if wi.z > 0.0 {
             let sum = wo + wi;
             let [reflected, _] = boundary((0.5 * sum.length()).min(1.0), eta);
-            let facets = reflected * self.ggx.area(sum.into());
-            let seen = self.ggx.seen_by_both(wo.into(), wi.into());
+            let facets = reflected * self.ggx.distribution(sum.into());
+            let seen = self.ggx.visibility(wo.into(), wi.into());
             return [0.5 * facets * seen, 0.25 * facets * visible];
         }
         // As seen from above, so that exchanging the directions changes no bit but the factor η².
@@ -86,8 +104,8 @@ impl<'a> FresnelMicrofacet<'a> {
         let both = 1.0 / (across * across) + 1.0 / (along * along);
         let transmitted = 2.0 * index * cos_a * cos_b * both;
         // dm/dwi is η² |wi · m| / (wo · m + η wi · m)², and the last is the length of the sum.
-        let facets = transmitted * self.ggx.area(sum.into()) * cos_a * cos_b / length2;
-        let seen = self.ggx.seen_by_both(a.into(), (-b).into());
+        let facets = transmitted * self.ggx.distribution(sum.into()) * cos_a * cos_b / length2;
+        let seen = self.ggx.visibility(a.into(), (-b).into());
         let f = 2.0 * facets * seen;
         if is_below {
             [f * index * index, facets * visible]
@@ -97,19 +115,15 @@ impl<'a> FresnelMicrofacet<'a> {
     }
 
     /// Value of multiple scattering and its density, without the colour.
-    #[inline]
-    fn often(&self, &Pair { wo, wi, eta, is_below }: &Pair) -> [f32; 2] {
-        let crossing = self.losses.crossing(&self.ggx, is_below);
-        let reflects = wi.z > 0.0;
+    #[inline(always)]
+    fn multiple(&self, View { is_below, eta, lost, .. }: View, wi: Vec3) -> [f32; 2] {
+        let (crossing, reflects) = (self.crossing[usize::from(is_below)], wi.z > 0.0);
         let far = if reflects { is_below } else { !is_below };
         let wi = Vec3::new(wi.x, wi.y, wi.z.abs());
         let (share, scale) = if reflects { (1.0 - crossing, 1.0) } else { (crossing, eta * eta) };
-        let (far, mean) = {
-            let losses = self.losses.side(far);
-            (losses.at(&self.ggx, wi), losses.mean(&self.ggx))
-        };
-        let lost = self.losses.side(is_below).at(&self.ggx, wo);
-        let f = if mean > 0.0 { share * lost * far / mean * FRAC_1_PI / scale } else { 0.0 };
+        let (mean, of_far) =
+            (self.means[usize::from(far)], self.losses.side(far).at(&self.ggx, wi));
+        let f = if mean > 0.0 { share * lost * of_far / mean * FRAC_1_PI / scale } else { 0.0 };
         [f, share * multiple::pdf(self.ggx.mean_alpha(), wi.z)]
     }
 
@@ -121,10 +135,10 @@ impl<'a> FresnelMicrofacet<'a> {
 
     /// A direction as if wo were above, with wo above.
     #[inline]
-    fn direction(&self, &Pair { wo, eta, is_below, .. }: &Pair, uc: f32, u: Vec2) -> Option<Vec3> {
-        let lost = self.losses.side(is_below).at(&self.ggx, wo);
+    fn direction(&self, view: View, uc: f32, u: Vec2) -> Option<Vec3> {
+        let View { wo, is_below, eta, lost } = view;
         if uc < lost {
-            let (uc, crossing) = (uc / lost, self.losses.crossing(&self.ggx, is_below));
+            let (uc, crossing) = (uc / lost, self.crossing[usize::from(is_below)]);
             let alpha = self.ggx.mean_alpha();
             return Some(if uc < crossing {
                 flipped(multiple::sample(alpha, u))
@@ -157,35 +171,32 @@ impl BxDF for FresnelMicrofacet<'_> {
 
     #[inline]
     fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        if self.ggx.rough().is_none() || wi.z == 0.0 {
-            return Spectrum::BLACK;
-        }
-        let pair = self.pair(wo, wi);
-        let color = if pair.wi.z > 0.0 { self.r } else { self.t };
-        Spectrum::from(color) * (self.once(&pair)[0] + self.often(&pair)[0])
+        self.f_and_pdf(wo, wi).0
     }
 
     fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
-        if self.ggx.rough().is_none() {
-            return self.smooth().sample_f(wo, uc, u);
-        }
-        let from = self.pair(wo, wo);
-        let wi = self.direction(&from, uc, u)?;
-        let wi = if from.is_below { flipped(wi) } else { wi };
-        let pdf = self.pdf(wo, wi);
-        let event = BxdfSample::glossy(self.f(wo, wi), wi, pdf);
-        let reflects = (wi.z > 0.0) == (wo.z > 0.0);
-        (pdf > 0.0).then_some(if reflects { event } else { event.transmitted(from.eta) })
+        let Some(view) = self.view(wo) else { return self.smooth().sample_f(wo, uc, u) };
+        let up = self.direction(view, uc, u)?;
+        let (f, pdf) = self.value_and_density(view, up);
+        let wi = if view.is_below { flipped(up) } else { up };
+        let event = BxdfSample::glossy(f, wi, pdf);
+        (pdf > 0.0).then_some(if up.z > 0.0 { event } else { event.transmitted(view.eta) })
     }
 
     #[inline]
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        if self.ggx.rough().is_none() || wi.z == 0.0 {
-            return 0.0;
+        self.f_and_pdf(wo, wi).1
+    }
+
+    #[inline]
+    fn f_and_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        match self.view(wo) {
+            Some(view) if wi.z != 0.0 => {
+                let [_, wi] = above(wo, wi);
+                self.value_and_density(view, wi)
+            }
+            _ => (Spectrum::BLACK, 0.0),
         }
-        let pair = self.pair(wo, wi);
-        let lost = self.losses.side(pair.is_below).at(&self.ggx, pair.wo);
-        (1.0 - lost) * self.once(&pair)[1] + lost * self.often(&pair)[1]
     }
 
     #[inline]

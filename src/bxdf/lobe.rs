@@ -5,6 +5,9 @@ use glam::{Vec2, Vec3};
 use super::{BxDF, BxdfFlags, BxdfSample, WideBxdf};
 use crate::spectrum::Spectrum;
 
+/// The most lobes that one [`Bsdf`](super::Bsdf) holds (PBRT's `MaxBxDFs`).
+pub const MAX_LOBES: usize = 8;
+
 /// Defines [`Lobe`] from the lists of this crate's models: those that are evaluated for several hits at a time, others, and those that
 /// borrow from their material.
 macro_rules! lobes {
@@ -159,6 +162,11 @@ impl BxDF for Lobe<'_> {
     #[inline]
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
         each!(self, bxdf => bxdf.pdf(wo, wi))
+    }
+
+    #[inline]
+    fn f_and_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        each!(self, bxdf => bxdf.f_and_pdf(wo, wi))
     }
 
     #[inline]

@@ -27,6 +27,15 @@ pub struct MicrofacetReflection<'a> {
     losses: Option<&'a Losses>,
 }
 
+/// Two directions above a rough surface.
+struct Pair {
+    ggx: Ggx,
+    wo: Vec3,
+    wi: Vec3,
+    /// What one facet does not return of light from `wo`.
+    lost: f32,
+}
+
 impl<'a> MicrofacetReflection<'a> {
     /// Reflection by one facet. `alpha` is the roughness along x and along y, in `[0, 1]`.
     #[inline]
@@ -56,6 +65,37 @@ impl<'a> MicrofacetReflection<'a> {
         self.losses.map_or(0.0, |losses| losses.at(ggx, w))
     }
 
+    /// `None` if nothing is reflected.
+    #[inline(always)]
+    fn pair(&self, wo: Vec3, wi: Vec3) -> Option<Pair> {
+        let [wo, wi] = above(wo, wi);
+        let ggx = self.ggx.rough().filter(|_| wi.z > 0.0)?;
+        Some(Pair { ggx, wo, wi, lost: self.lost(&ggx, wo) })
+    }
+
+    #[inline(always)]
+    fn value(&self, &Pair { ggx, wo, wi, lost }: &Pair) -> Spectrum {
+        let sum = wo + wi;
+        // wo · m, from the length of the sum.
+        let cos = (0.5 * sum.length()).min(1.0);
+        let single = 0.5 * ggx.distribution(sum.into()) * ggx.visibility(wo.into(), wi.into());
+        let single = self.fresnel.evaluate(cos) * single;
+        match self.losses {
+            Some(_) => single + Spectrum::from(self.multiple) * (lost * self.lost(&ggx, wi)),
+            None => single,
+        }
+    }
+
+    #[inline(always)]
+    fn density(&self, &Pair { ggx, wo, wi, lost }: &Pair) -> f32 {
+        let single = ggx.reflected_bounded(wo.into(), (wo + wi).into());
+        if lost > 0.0 {
+            (1.0 - lost) * single + lost * multiple::pdf(ggx.mean_alpha(), wi.z)
+        } else {
+            single
+        }
+    }
+
     /// The surface as a specular one.
     #[inline]
     fn smooth(&self) -> SpecularReflection {
@@ -75,19 +115,8 @@ impl BxDF for MicrofacetReflection<'_> {
 
     #[inline]
     fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        let [up, wi] = above(wo, wi);
-        let Some(ggx) = self.ggx.rough().filter(|_| wi.z > 0.0) else { return Spectrum::BLACK };
-        let sum = up + wi;
-        // wo · m, from the length of the sum.
-        let cos = (0.5 * sum.length()).min(1.0);
-        let once = 0.5 * ggx.area(sum.into()) * ggx.seen_by_both(up.into(), wi.into());
-        let once = self.fresnel.evaluate(cos) * once;
-        match self.losses {
-            Some(_) => {
-                once + Spectrum::from(self.multiple) * (self.lost(&ggx, up) * self.lost(&ggx, wi))
-            }
-            None => once,
-        }
+        let Some(pair) = self.pair(wo, wi) else { return Spectrum::BLACK };
+        self.value(&pair)
     }
 
     fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
@@ -103,22 +132,22 @@ impl BxDF for MicrofacetReflection<'_> {
             let m: Vec3 = ggx.sample_bounded(up.into(), u.to_array()).into();
             2.0 * up.dot(m) * m - up
         };
+        let pair = Pair { ggx, wo: up, wi, lost };
+        let pdf = if wi.z > 0.0 { self.density(&pair) } else { 0.0 };
         let wi = if wo.z < 0.0 { flipped(wi) } else { wi };
-        let pdf = self.pdf(wo, wi);
-        (pdf > 0.0).then(|| BxdfSample::glossy(self.f(wo, wi), wi, pdf))
+        (pdf > 0.0).then(|| BxdfSample::glossy(self.value(&pair), wi, pdf))
     }
 
     #[inline]
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        let [wo, wi] = above(wo, wi);
-        let Some(ggx) = self.ggx.rough().filter(|_| wi.z > 0.0) else { return 0.0 };
-        let once = ggx.reflected_bounded(wo.into(), (wo + wi).into());
-        let lost = self.lost(&ggx, wo);
-        if lost > 0.0 {
-            (1.0 - lost) * once + lost * multiple::pdf(ggx.mean_alpha(), wi.z)
-        } else {
-            once
-        }
+        let Some(pair) = self.pair(wo, wi) else { return 0.0 };
+        self.density(&pair)
+    }
+
+    #[inline]
+    fn f_and_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        let Some(pair) = self.pair(wo, wi) else { return (Spectrum::BLACK, 0.0) };
+        (self.value(&pair), self.density(&pair))
     }
 
     #[inline]

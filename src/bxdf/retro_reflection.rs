@@ -47,6 +47,11 @@ impl BxDF for RetroReflection<'_> {
     }
 
     #[inline]
+    fn f_and_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        self.base.f_and_pdf(mirrored(wo), wi)
+    }
+
+    #[inline]
     fn uses_uc(&self) -> bool {
         self.base.uses_uc()
     }

@@ -42,6 +42,12 @@ impl<B: BxDF> BxDF for ScaledBxDF<B> {
     }
 
     #[inline]
+    fn f_and_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        let (f, pdf) = self.bxdf.f_and_pdf(wo, wi);
+        (self.scale * f, pdf)
+    }
+
+    #[inline]
     fn uses_uc(&self) -> bool {
         self.bxdf.uses_uc()
     }

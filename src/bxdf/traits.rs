@@ -191,6 +191,13 @@ pub trait BxDF: Send + Sync {
         cosine_pdf(wo.into(), wi.into())
     }
 
+    /// [`f`](BxDF::f) and [`pdf`](BxDF::pdf) of one pair of directions, which is what most callers ask for. The default calls both:
+    /// override it where they share work.
+    #[inline]
+    fn f_and_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        (self.f(wo, wi), self.pdf(wo, wi))
+    }
+
     /// Whether `sample_f` uses `uc`. If not, one sample value per hit is saved, and `uc` is NaN.
     #[inline]
     fn uses_uc(&self) -> bool {

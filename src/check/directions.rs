@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::cells::{Cells, GROUP};
-use super::fault::Fault;
+use super::contract::Contract;
 use super::report::{Direction, Estimate, Options, Report};
 use super::statistics::{Mean, chi_square, is_close, significance, two_sided};
 use super::subject::{COSINES, Subject, values, view};
@@ -76,13 +76,13 @@ pub fn check(
     let runs = COSINES.len() as u32 * options.checks;
     let is_resolved = tally.directions.is_empty() || tally.rounding.mean < RESOLVED;
     if is_resolved && p < significance(runs) {
-        report.add(Fault::Distribution, || format!("from cos {cos}: chi-square p = {p:.1e}"));
+        report.add(Contract::Distribution, || format!("from cos {cos}: chi-square p = {p:.1e}"));
     }
     // Counts add their own error to the rejected share.
     let share = 1.0 - rejected - specular;
     let error = (share.max(0.0) * (1.0 - share) / of).sqrt();
     if is_resolved && (density - share).abs() > 1e-3 + 5.0 * error {
-        report.add(Fault::Integral, || {
+        report.add(Contract::Integral, || {
             format!("from cos {cos}: pdf integrates to {density:.5}, and {share:.5} of the samples have one")
         });
     }
@@ -130,7 +130,9 @@ fn draw(
             // Reported by the grid of edges and here alike.
             let is_valid = sample.f.is_valid() && sample.pdf > 0.0 && sample.wi.is_finite();
             if !is_valid {
-                report.add(Fault::Invalid, || format!("the sample of uc {uc}, u {u} from wo {wo}"));
+                report.add(Contract::Invalid, || {
+                    format!("the sample of uc {uc}, u {u} from wo {wo}")
+                });
             }
             is_valid
         });
@@ -173,16 +175,21 @@ impl Tally {
             let pdf = subject.pdf(wo, wi);
             let moved = subject.pdf(wo, wi + Vec3::new(0.5, -0.5, 0.0) * f32::EPSILON);
             self.rounding.add(f64::from((moved - pdf).abs() / pdf.max(moved)).min(1.0));
-            if !is_close(pdf, sample.pdf, 1e-3) {
-                report.add(Fault::Density, || {
-                    format!("{} of a sample, {pdf} of pdf(), for wo {wo} and wi {wi}", sample.pdf)
-                });
-            }
-            for (of_sample, f) in sample.f.to_array().into_iter().zip(f.to_array()) {
-                if !is_close(of_sample, f, 1e-3) {
-                    report.add(Fault::Value, || {
-                        format!("{of_sample} of a sample, {f} of f(), for wo {wo} and wi {wi}")
+            let (f_of_both, pdf_of_both) = subject.f_and_pdf(wo, wi);
+            let others =
+                [("a sample", sample.f, sample.pdf), ("f_and_pdf()", f_of_both, pdf_of_both)];
+            for (from, other_f, other_pdf) in others {
+                if !is_close(pdf, other_pdf, 1e-3) {
+                    report.add(Contract::Density, || {
+                        format!("{other_pdf} of {from}, {pdf} of pdf(), for wo {wo} and wi {wi}")
                     });
+                }
+                for (other, f) in other_f.to_array().into_iter().zip(f.to_array()) {
+                    if !is_close(other, f, 1e-3) {
+                        report.add(Contract::Value, || {
+                            format!("{other} of {from}, {f} of f(), for wo {wo} and wi {wi}")
+                        });
+                    }
                 }
             }
         }
@@ -205,7 +212,7 @@ fn event(subject: &dyn Subject, wo: Vec3, sample: &BxdfSample, report: &mut Repo
     let reflects = (wo.z > 0.0) == (wi.z > 0.0);
     let side = if reflects { BxdfFlags::REFLECTION } else { BxdfFlags::TRANSMISSION };
     if !subject.flags().contains(side) {
-        report.add(Fault::Side, || format!("wi {wi} for wo {wo}"));
+        report.add(Contract::Side, || format!("wi {wi} for wo {wo}"));
     }
     if !subject.sets_flags() {
         return;
@@ -217,7 +224,7 @@ fn event(subject: &dyn Subject, wo: Vec3, sample: &BxdfSample, report: &mut Repo
     let has_index = if reflects { sample.eta == 1.0 } else { sample.eta > 0.0 };
     if !is_event || !has_index {
         let (flags, eta) = (sample.flags, sample.eta);
-        report.add(Fault::Event, || format!("{flags:?} and eta {eta} for wo {wo} and wi {wi}"));
+        report.add(Contract::Event, || format!("{flags:?} and eta {eta} for wo {wo} and wi {wi}"));
     }
 }
 
@@ -236,19 +243,21 @@ fn energy(direction: &Direction, options: &Options, runs: u32, report: &mut Repo
         let Estimate { mean, error } = direction.sampled[band];
         let noise = limit * error + 1e-5;
         if mean > 1.0 + options.white.unwrap_or(1e-3) + noise {
-            report
-                .add(Fault::Gain, || format!("from cos {cos}: {mean:.5} of the light is returned"));
+            report.add(Contract::Gain, || {
+                format!("from cos {cos}: {mean:.5} of the light is returned")
+            });
         }
         if options.white.is_some_and(|tolerance| mean < 1.0 - tolerance - noise) {
-            report
-                .add(Fault::Loss, || format!("from cos {cos}: {mean:.5} of the light is returned"));
+            report.add(Contract::Loss, || {
+                format!("from cos {cos}: {mean:.5} of the light is returned")
+            });
         }
         // Both without specular events, whose number is an error of its own.
         let (Estimate { mean, error }, integral) =
             (direction.spread[band], direction.integrated[band]);
         let noise = limit * error + 1e-5;
         if direction.is_resolved && (mean - integral).abs() > noise + 2e-3 * integral.max(0.5) {
-            report.add(Fault::Albedo, || {
+            report.add(Contract::Albedo, || {
                 format!(
                     "from cos {cos}: {mean:.5} by samples, {integral:.5} by the integral of f cos θ"
                 )

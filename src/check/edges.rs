@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use super::fault::Fault;
+use super::contract::Contract;
 use super::report::Report;
 use super::subject::{Subject, view};
 
@@ -18,7 +18,7 @@ pub fn check(subject: &dyn Subject, report: &mut Report) {
             let (f, pdf) = (subject.f(wo, wi), subject.pdf(wo, wi));
             if !f.is_valid() || !(0.0..f32::INFINITY).contains(&pdf) {
                 let [r, g, b] = f.to_array();
-                report.add(Fault::Invalid, || {
+                report.add(Contract::Invalid, || {
                     format!("f [{r}, {g}, {b}] and pdf {pdf} of wo {wo} and wi {wi}")
                 });
             }
@@ -30,7 +30,7 @@ pub fn check(subject: &dyn Subject, report: &mut Report) {
             let is_unit = (sample.wi.length() - 1.0).abs() < 1e-3;
             let has_density = sample.pdf > 0.0 && sample.pdf < f32::INFINITY;
             if !sample.f.is_valid() || !has_density || !is_unit {
-                report.add(Fault::Invalid, || {
+                report.add(Contract::Invalid, || {
                     let [r, g, b] = sample.f.to_array();
                     let (wi, pdf) = (sample.wi, sample.pdf);
                     format!(

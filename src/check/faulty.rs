@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_1_PI;
 
 use glam::{Vec2, Vec3};
 
-use super::fault::Fault;
+use super::contract::Contract;
 use crate::bxdf::{
     BxDF, BxdfFlags, BxdfSample, EnergyPreservingOrenNayar, FresnelSpecular, LambertianReflection,
 };
@@ -16,7 +16,7 @@ pub struct Faulty {
     /// What is wrong.
     pub name: &'static str,
     /// The faults one of which has to be found.
-    pub expected: &'static [Fault],
+    pub expected: &'static [Contract],
     /// The lobe.
     pub lobe: Box<dyn BxDF>,
 }
@@ -40,6 +40,8 @@ enum Break {
     FresnelTwice,
     ValueOfSample,
     HalfSampled,
+    OneWay,
+    Together,
 }
 
 /// Lobes that are wrong, each in another way.
@@ -48,33 +50,45 @@ pub fn faulty() -> Vec<Faulty> {
     let diffuse = || -> Box<dyn BxDF> { Box::new(LambertianReflection::new(white)) };
     let rough = || -> Box<dyn BxDF> { Box::new(EnergyPreservingOrenNayar::new(white, 0.7)) };
     let glass = || -> Box<dyn BxDF> { Box::new(FresnelSpecular::new(white, white, 1.5)) };
-    let all: [(_, _, &[Fault], _); 11] = [
+    let all: [(_, _, &[Contract], _); 13] = [
         (
             "a pdf of uniform directions for cosine-weighted samples",
             Break::Density,
-            &[Fault::Distribution],
+            &[Contract::Distribution],
             diffuse(),
         ),
-        ("samples with another pdf than pdf()", Break::DensityOfSample, &[Fault::Density], rough()),
-        ("samples with another f than f()", Break::ValueOfSample, &[Fault::Value], rough()),
-        ("lost energy", Break::Loss, &[Fault::Loss], rough()),
-        ("a factor of one direction only", Break::OneSided, &[Fault::Reciprocity], diffuse()),
-        ("NaN at grazing angles", Break::GrazingNan, &[Fault::Invalid], diffuse()),
-        ("flags of the lobe instead of the event", Break::AllFlags, &[Fault::Event], glass()),
+        (
+            "samples with another pdf than pdf()",
+            Break::DensityOfSample,
+            &[Contract::Density],
+            rough(),
+        ),
+        ("samples with another f than f()", Break::ValueOfSample, &[Contract::Value], rough()),
+        ("lost energy", Break::Loss, &[Contract::Loss], rough()),
+        ("a factor of one direction only", Break::OneSided, &[Contract::Reciprocity], diffuse()),
+        ("NaN at grazing angles", Break::GrazingNan, &[Contract::Invalid], diffuse()),
+        ("flags of the lobe instead of the event", Break::AllFlags, &[Contract::Event], glass()),
         (
             "a forgotten factor 1/eta²",
             Break::EtaSquared,
-            &[Fault::Gain, Fault::Reciprocity],
+            &[Contract::Gain, Contract::Reciprocity],
             glass(),
         ),
-        ("samples below the horizon", Break::BelowHorizon, &[Fault::Side], diffuse()),
+        ("samples below the horizon", Break::BelowHorizon, &[Contract::Side], diffuse()),
         (
             "a coat that counts its Fresnel factor twice",
             Break::FresnelTwice,
-            &[Fault::Loss],
+            &[Contract::Loss],
             glass(),
         ),
-        ("a part of f that is never sampled", Break::HalfSampled, &[Fault::Albedo], diffuse()),
+        ("a part of f that is never sampled", Break::HalfSampled, &[Contract::Albedo], diffuse()),
+        ("a specular event without a way back", Break::OneWay, &[Contract::Reciprocity], glass()),
+        (
+            "a density of f_and_pdf that is not that of pdf",
+            Break::Together,
+            &[Contract::Density],
+            rough(),
+        ),
     ];
     all.map(|(name, fault, expected, lobe)| Faulty {
         name,
@@ -110,6 +124,7 @@ impl BxDF for Broken {
         let mut sample = self.lobe.sample_f(wo, uc, u)?;
         match self.fault {
             Break::HalfSampled if sample.wi.x < 0.0 => return None,
+            Break::OneWay if wo.z < 0.0 => return None,
             Break::BelowHorizon if u.x < 0.01 => sample.wi.z = -sample.wi.z,
             Break::DensityOfSample => sample.pdf *= 1.02,
             Break::ValueOfSample => {
@@ -145,5 +160,10 @@ impl BxDF for Broken {
             Break::HalfSampled if wi.x < 0.0 => 0.0,
             _ => self.lobe.pdf(wo, wi),
         }
+    }
+
+    fn f_and_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        let pdf = self.pdf(wo, wi);
+        (self.f(wo, wi), if self.is(Break::Together) { 1.02 * pdf } else { pdf })
     }
 }

@@ -20,9 +20,9 @@
 //! ```
 
 mod cells;
+mod contract;
 mod directions;
 mod edges;
-mod fault;
 mod faulty;
 mod reciprocity;
 mod report;
@@ -35,7 +35,7 @@ use crate::material::Material;
 use crate::shape::TriangleMesh;
 use glam::Vec3;
 
-pub use fault::Fault;
+pub use contract::Contract;
 pub use faulty::{Faulty, faulty};
 pub use report::{Direction, Estimate, Finding, Options, Report};
 use subject::{COSINES, Local, Subject};
@@ -49,7 +49,7 @@ pub fn check(lobe: &dyn BxDF, options: &Options) -> Report {
 pub fn check_bsdf(bsdf: &Bsdf, options: &Options) -> Report {
     let mut report = run(bsdf, options);
     if bsdf.rejected() > 0 {
-        report.add(Fault::Invalid, || format!("the Bsdf rejected {} results", bsdf.rejected()));
+        report.add(Contract::Invalid, || format!("the Bsdf rejected {} results", bsdf.rejected()));
     }
     report
 }

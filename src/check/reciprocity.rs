@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::fault::Fault;
+use super::contract::Contract;
 use super::report::{Options, Report};
 use super::subject::{Subject, values};
 use crate::bxdf::BxdfSample;
@@ -11,6 +11,12 @@ use crate::spectrum::Spectrum;
 
 /// The largest relative difference that rounding explains, also for narrow lobes, whose half vectors are less exact.
 const TOLERANCE: f64 = 1e-3;
+
+/// How many sample values are tried to find the way back of a specular event.
+const NUMBERS: u32 = 64;
+
+/// The largest fraction of light that a specular event may carry which these may miss.
+const RARE: f32 = 0.05;
 
 pub fn check(subject: &dyn Subject, options: &Options, report: &mut Report) {
     let mut random = Random::new(options.seed ^ 0x5eed);
@@ -52,23 +58,32 @@ fn pair(subject: &dyn Subject, wo: Vec3, wi: Vec3, eta: f32, report: &mut Report
 /// An event that has only one direction: what it carries has to come back from there.
 fn specular(subject: &dyn Subject, wo: Vec3, sample: &BxdfSample, report: &mut Report) {
     let carried = |s: &BxdfSample| s.f * (s.wi.z.abs() * s.eta * s.eta);
-    let back = [0.01, 0.25, 0.5, 0.75, 0.99].into_iter().filter_map(|uc| {
+    // Near the critical angle, the way back starts from a rounded direction.
+    if wo.z.abs().min(sample.wi.z.abs()) < 0.1 {
+        return;
+    }
+    // The event itself, by whichever number selects it.
+    let back = (0..NUMBERS).find_map(|i| {
+        let uc = (i as f32 * 0.618_034 + 0.01).fract();
         let back = subject.sample_f(sample.wi, uc, glam::Vec2::splat(0.5))?;
         (back.is_specular() && (back.wi - wo).length() < 1e-2).then_some(back)
     });
-    // The event itself, by whichever number selects it; rare ones are not found.
-    if let Some(back) = back.into_iter().next() {
-        // Near the critical angle, the way back starts from a rounded direction.
-        let difference = difference(carried(sample), carried(&back));
-        let is_grazing = wo.z.abs().min(sample.wi.z.abs()) < 0.1;
-        note(if is_grazing { 0.0 } else { difference }, wo, sample.wi, report);
+    match back {
+        Some(back) => note(difference(carried(sample), carried(&back)), wo, sample.wi, report),
+        // A rare one may not have been found.
+        None if carried(sample).max_component() > RARE => {
+            report.add(Contract::Reciprocity, || {
+                format!("of the light from wi {} to wo {wo}, none goes back", sample.wi)
+            });
+        }
+        None => {}
     }
 }
 
 fn note(difference: f64, wo: Vec3, wi: Vec3, report: &mut Report) {
     report.reciprocity = report.reciprocity.max(difference);
     if difference.is_nan() || difference > TOLERANCE {
-        report.add(Fault::Reciprocity, || {
+        report.add(Contract::Reciprocity, || {
             format!("f of wo {wo} and wi {wi} changes by the fraction {difference:.2e} when they are exchanged")
         });
     }

@@ -1,6 +1,6 @@
 //! [`Options`] of a check, and its [`Report`].
 
-use super::fault::Fault;
+use super::contract::Contract;
 
 /// How a check is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,11 +22,11 @@ impl Default for Options {
     }
 }
 
-/// A fault and where it was seen first.
+/// A broken contract and where that was seen first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// The contract.
-    pub fault: Fault,
+    pub contract: Contract,
     /// The directions and numbers.
     pub detail: String,
 }
@@ -46,9 +46,9 @@ pub struct Report {
 }
 
 impl Report {
-    pub(super) fn add(&mut self, fault: Fault, detail: impl FnOnce() -> String) {
-        if self.findings.iter().all(|finding| finding.fault != fault) {
-            self.findings.push(Finding { fault, detail: detail() });
+    pub(super) fn add(&mut self, contract: Contract, detail: impl FnOnce() -> String) {
+        if self.findings.iter().all(|finding| finding.contract != contract) {
+            self.findings.push(Finding { contract, detail: detail() });
         }
     }
 }

@@ -10,6 +10,7 @@ use crate::spectrum::Spectrum;
 pub trait Subject {
     fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum;
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32;
+    fn f_and_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32);
     fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample>;
     fn flags(&self) -> BxdfFlags;
     /// Whether flags of samples are the lobe's own.
@@ -19,14 +20,25 @@ pub trait Subject {
 /// A lobe. On sides that its flags exclude it is black, as in a [`Bsdf`].
 pub struct Local<'a>(pub &'a dyn BxDF);
 
-impl Subject for Local<'_> {
-    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+impl Local<'_> {
+    /// Whether the flags include the event of these directions.
+    fn scatters(&self, wo: Vec3, wi: Vec3) -> bool {
         let reflects = (wo.z > 0.0) == (wi.z > 0.0);
         let side = if reflects { BxdfFlags::REFLECTION } else { BxdfFlags::TRANSMISSION };
-        if self.flags().contains(side) { self.0.f(wo, wi) } else { Spectrum::BLACK }
+        self.0.flags().contains(side)
+    }
+}
+
+impl Subject for Local<'_> {
+    fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+        if self.scatters(wo, wi) { self.0.f(wo, wi) } else { Spectrum::BLACK }
     }
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
         self.0.pdf(wo, wi)
+    }
+    fn f_and_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        let (f, pdf) = self.0.f_and_pdf(wo, wi);
+        (if self.scatters(wo, wi) { f } else { Spectrum::BLACK }, pdf)
     }
     fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
         self.0.sample_f(wo, uc, u)
@@ -47,6 +59,10 @@ impl Subject for Bsdf<'_> {
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
         let [wo, wi] = [wo, wi].map(|w| self.frame().to_world(w));
         Bsdf::pdf(self, wo, wi, BxdfFlags::all())
+    }
+    fn f_and_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        let [wo, wi] = [wo, wi].map(|w| self.frame().to_world(w));
+        Bsdf::f_and_pdf(self, wo, wi, BxdfFlags::all())
     }
     fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
         let wo = self.frame().to_world(wo);

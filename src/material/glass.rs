@@ -3,15 +3,15 @@
 use std::sync::Arc;
 
 use super::medium::Medium;
-use super::reflectance::reflectance;
 use super::roughness::{self, Roughness};
+use super::scales::{self, Scales};
 use super::traits::Material;
 use super::{Materials, Read};
 use crate::bxdf::{Arena, BoundaryLosses, Bsdf, FresnelMicrofacet, FresnelSpecular};
 use crate::interaction::SurfaceInteraction;
 use crate::params::{Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
-use crate::texture::{Texture, TextureHandle, TextureKey, Textures};
+use crate::texture::{Texture, Textures};
 
 /// A boundary, as of glass, water or diamond: light is reflected or refracted by Fresnel's equations (PBRT 3rd edition, section 9.2.2). A
 /// smooth one is [`FresnelSpecular`], a rough one [`FresnelMicrofacet`], which loses no light between its facets.
@@ -21,8 +21,7 @@ use crate::texture::{Texture, TextureHandle, TextureKey, Textures};
 #[doc(alias = "dielectric")]
 #[derive(Clone)]
 pub struct GlassMaterial {
-    kr: TextureHandle<Spectrum>,
-    kt: TextureHandle<Spectrum>,
+    scales: Scales,
     eta: f32,
     /// Of a surface that is not smooth everywhere.
     rough: Option<(Roughness, Arc<BoundaryLosses>)>,
@@ -31,8 +30,7 @@ pub struct GlassMaterial {
 impl GlassMaterial {
     /// Glass that loses no energy. `eta` is the index of refraction inside, over that outside; it must be above 0.
     pub fn new(eta: f32) -> Self {
-        let white = || TextureHandle::Constant(Spectrum::WHITE);
-        Self { kr: white(), kt: white(), eta, rough: None }
+        Self { scales: Scales::white(), eta, rough: None }
     }
 
     /// Makes the surface rough: frosted glass.
@@ -44,12 +42,12 @@ impl GlassMaterial {
 
     /// Scales what is reflected, by a fraction that is clamped to `[0, 1]` per band.
     pub fn with_kr(self, kr: impl Texture<Spectrum> + 'static) -> Self {
-        Self { kr: kr.into_handle(), ..self }
+        Self { scales: Scales { kr: kr.into_handle(), ..self.scales }, ..self }
     }
 
     /// Scales what is refracted, by a fraction that is clamped to `[0, 1]` per band.
     pub fn with_kt(self, kt: impl Texture<Spectrum> + 'static) -> Self {
-        Self { kt: kt.into_handle(), ..self }
+        Self { scales: Scales { kt: kt.into_handle(), ..self.scales }, ..self }
     }
 }
 
@@ -59,9 +57,7 @@ impl Material for GlassMaterial {
             Some((roughness, _)) => roughness.bsdf(si),
             None => Bsdf::isotropic(si),
         };
-        let [r, t] = [&self.kr, &self.kt].map(|texture| reflectance(texture.evaluate(si)));
-        if r.is_some() || t.is_some() {
-            let [r, t] = [r, t].map(Option::unwrap_or_default);
+        if let Some([r, t]) = self.scales.at(si) {
             match &self.rough {
                 Some((rough, losses)) => {
                     bsdf.add(FresnelMicrofacet::new(r, t, rough.at(si), losses))
@@ -73,12 +69,6 @@ impl Material for GlassMaterial {
     }
 }
 
-const KR: TextureKey<Spectrum> = TextureKey::of(
-    Key::new("kr", "scale of what is reflected").range(0.0..=1.0).default(Spectrum::WHITE),
-);
-const KT: TextureKey<Spectrum> = TextureKey::of(
-    Key::new("kt", "scale of what is refracted").range(0.0..=1.0).default(Spectrum::WHITE),
-);
 /// 1.5 by default, as in PBRT.
 const ETA: Key<Medium> = Key::new("eta", "index of refraction inside, over that outside")
     .range(0.1..=10.0)
@@ -88,13 +78,20 @@ const ETA: Key<Medium> = Key::new("eta", "index of refraction inside, over that 
 pub(super) const KIND: Kind<Read> = Kind {
     name: "glass",
     meaning: "A boundary that reflects and refracts, smooth or rough",
-    keys: &[&ETA, &KR, &KT, roughness::KEYS[0], roughness::KEYS[1], roughness::KEYS[2]],
+    keys: &[
+        &ETA,
+        scales::KEYS[0],
+        scales::KEYS[1],
+        roughness::KEYS[0],
+        roughness::KEYS[1],
+        roughness::KEYS[2],
+    ],
     read,
 };
 
 fn read(table: &Table, textures: &Textures, _: &Materials) -> Result<Arc<dyn Material>, Fault> {
     let Medium(eta) = table.get(&ETA)?;
-    let [kr, kt] = [textures.get(table, &KR)?, textures.get(table, &KT)?];
+    let scales = scales::read(table, textures)?;
     let roughness = roughness::read(table, textures)?;
-    Ok(Arc::new(GlassMaterial::new(eta).with_kr(kr).with_kt(kt).with_roughness(roughness)))
+    Ok(Arc::new(GlassMaterial { scales, eta, rough: None }.with_roughness(roughness)))
 }

@@ -3,16 +3,17 @@
 use std::sync::Arc;
 
 use super::conductor::Conductor;
+use super::facets::Facets;
 use super::roughness::{self, Roughness};
 use super::{Material, Materials, Read};
 use crate::bxdf::fresnel::Fresnel;
-use crate::bxdf::{Arena, Bsdf, Losses, MicrofacetReflection};
+use crate::bxdf::{Arena, Bsdf};
 use crate::interaction::SurfaceInteraction;
 use crate::params::{Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 
-/// A metal, on both sides, which loses no light between its facets: [`MicrofacetReflection`] with Fresnel's equations for conductors (PBRT 3rd
+/// A metal, on both sides, which loses no light between its facets: [`MicrofacetReflection`](crate::bxdf::MicrofacetReflection) with Fresnel's equations for conductors (PBRT 3rd
 /// edition, section 9.2.3, there without multiple scattering).
 ///
 /// ```
@@ -25,19 +26,14 @@ use crate::texture::Textures;
 #[doc(alias = "conductor")]
 #[derive(Clone)]
 pub struct MetalMaterial {
-    fresnel: Fresnel,
-    mean: Spectrum,
-    roughness: Roughness,
-    losses: Arc<Losses>,
+    facets: Facets,
 }
 
 impl MetalMaterial {
     /// A smooth metal with the index of refraction `eta` + i `k`, over that of the medium outside.
     pub fn new(eta: Spectrum, k: Spectrum) -> Self {
         let fresnel = Fresnel::Conductor { eta: eta.to_array(), k: k.to_array() };
-        let roughness = Roughness::smooth();
-        let losses = Arc::new(Losses::of_mirrors(roughness.all()));
-        Self { fresnel, mean: fresnel.mean(), roughness, losses }
+        Self { facets: Facets::new(fresnel) }
     }
 
     /// A smooth metal of the list of scene files, such as "gold".
@@ -47,16 +43,14 @@ impl MetalMaterial {
 
     /// Makes the surface rough.
     pub fn with_roughness(self, roughness: Roughness) -> Self {
-        let losses = Arc::new(Losses::of_mirrors(roughness.all()));
-        Self { roughness, losses, ..self }
+        Self { facets: self.facets.with_roughness(roughness) }
     }
 }
 
 impl Material for MetalMaterial {
     fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, _: &'a Arena) -> Bsdf<'a> {
-        let mut bsdf = self.roughness.bsdf(si);
-        let lobe = MicrofacetReflection::new(self.roughness.at(si), self.fresnel);
-        bsdf.add(lobe.and_multiple(&self.losses, self.mean));
+        let (mut bsdf, lobe) = self.facets.at(si);
+        bsdf.add(lobe);
         bsdf
     }
 }

@@ -41,7 +41,7 @@ impl Material for MixMaterial {
         }
         let mut of_second = si.clone();
         let second = second.compute_scattering(&mut of_second, arena);
-        first.compute_scattering(si, arena).mixed(1.0 - amount, &second, amount, arena)
+        first.compute_scattering(si, arena).mixed(1.0 - amount, &second, amount)
     }
 }
 

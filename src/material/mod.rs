@@ -2,6 +2,7 @@
 
 mod bump;
 mod conductor;
+mod facets;
 mod glass;
 mod matte;
 mod medium;
@@ -12,6 +13,7 @@ mod plastic;
 mod reflectance;
 mod retro;
 mod roughness;
+mod scales;
 mod thin_glass;
 mod traits;
 mod translucent;

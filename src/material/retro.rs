@@ -2,55 +2,51 @@
 
 use std::sync::Arc;
 
+use super::facets::Facets;
 use super::reflectance::reflectance;
 use super::roughness::{self, Roughness};
 use super::{Material, Materials, Read};
 use crate::bxdf::fresnel::Fresnel;
-use crate::bxdf::{Arena, Bsdf, Losses, MicrofacetReflection, RetroReflection, ScaledBxDF};
+use crate::bxdf::{Arena, Bsdf, RetroReflection};
 use crate::interaction::SurfaceInteraction;
 use crate::params::{Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
 use crate::texture::{Texture, TextureHandle, TextureKey, Textures};
 
 /// Glossy reflection, part of it back to where light came from, as of road signs and safety vests: [`RetroReflection`] beside
-/// [`MicrofacetReflection`]. Neither loses light between facets.
+/// [`MicrofacetReflection`](crate::bxdf::MicrofacetReflection). Neither loses light between facets.
 #[derive(Clone)]
 pub struct RetroMaterial {
     kr: TextureHandle<Spectrum>,
     weight: TextureHandle<f32>,
-    roughness: Roughness,
-    losses: Arc<Losses>,
+    facets: Facets,
 }
 
 impl RetroMaterial {
     /// A smooth surface that reflects the fraction `kr` of light, clamped to `[0, 1]` per band; of this, the fraction `weight`, clamped to
     /// `[0, 1]`, back.
     pub fn new(kr: impl Texture<Spectrum> + 'static, weight: impl Texture<f32> + 'static) -> Self {
-        let roughness = Roughness::smooth();
-        let losses = Arc::new(Losses::of_mirrors(roughness.all()));
-        Self { kr: kr.into_handle(), weight: weight.into_handle(), roughness, losses }
+        let facets = Facets::new(Fresnel::NoOp);
+        Self { kr: kr.into_handle(), weight: weight.into_handle(), facets }
     }
 
     /// Makes the surface rough.
     pub fn with_roughness(self, roughness: Roughness) -> Self {
-        let losses = Arc::new(Losses::of_mirrors(roughness.all()));
-        Self { roughness, losses, ..self }
+        Self { facets: self.facets.with_roughness(roughness), ..self }
     }
 }
 
 impl Material for RetroMaterial {
-    fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, arena: &'a Arena) -> Bsdf<'a> {
-        let mut bsdf = self.roughness.bsdf(si);
-        let lobe = MicrofacetReflection::new(self.roughness.at(si), Fresnel::NoOp);
-        let lobe = lobe.and_multiple(&self.losses, Spectrum::WHITE);
+    fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, _: &'a Arena) -> Bsdf<'a> {
+        let (mut bsdf, lobe) = self.facets.at(si);
         if let Some(kr) = reflectance(self.kr.evaluate(si)) {
             let weight = self.weight.evaluate(si).clamp(0.0, 1.0);
             // Not false for NaN, which the Bsdf counts.
             if weight != 0.0 {
-                bsdf.add(arena.lobe(ScaledBxDF::new(RetroReflection::new(lobe), kr * weight)));
+                bsdf.add_scaled(RetroReflection::new(lobe), kr * weight);
             }
             if weight != 1.0 {
-                bsdf.add(arena.lobe(ScaledBxDF::new(lobe, kr * (1.0 - weight))));
+                bsdf.add_scaled(lobe, kr * (1.0 - weight));
             }
         }
         bsdf

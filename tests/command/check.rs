@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use lobe::check::{Fault, faulty};
+use lobe::check::{Contract, faulty};
 use lobe::image::Image;
 
 use crate::folder::Folder;
@@ -209,13 +209,13 @@ fn the_page_has_all_in_one_file() {
     assert!(page.contains("src=\"data:image/png;base64,"));
     let count = |part: &str| page.matches(part).count();
     assert_eq!(count("<h2>"), 4, "the scene and three materials");
-    for fault in Fault::ALL {
+    for fault in Contract::ALL {
         assert_eq!(count(&format!("<tr><td>{}<", fault.name())), 3, "{}", fault.name());
     }
     // One material has a colour; two have one lobe, the third two.
     assert_eq!((count("<title>Albedo, "), count("<title>Lobes in")), (3 + 1 + 1, 3));
     assert_eq!(count("<th>2:CoatedDiffuse"), 1);
-    let all = 5 * Fault::ALL.len();
+    let all = 5 * Contract::ALL.len();
     let [passed, failed] = [count("<td class=\"ok\">pass"), count("<td class=\"fault\">fail")];
     // Lobes alone promise nothing, and none of the materials keeps the promise.
     assert_eq!((passed, failed, count("<td>not promised")), (all - 5, 3, 2));
@@ -245,7 +245,7 @@ fn the_picture_is_grey() {
 #[test]
 fn help_tells_what_each_fault_means() {
     let help = Folder::new("check-help").prints("check --help");
-    for fault in Fault::ALL {
+    for fault in Contract::ALL {
         assert!(help.contains(fault.meaning()) && help.contains(fault.hint()), "{}", fault.name());
     }
     assert!(help.contains("Examples:\n  lobe check "));

@@ -1,5 +1,7 @@
 //! Metals.
 
+use glam::{Vec3, Vec4};
+
 use crate::simd::Float;
 use crate::spectrum::Spectrum;
 
@@ -17,12 +19,9 @@ use crate::spectrum::Spectrum;
 /// ```
 #[inline]
 pub fn conductor(cos: f32, eta: Spectrum, k: Spectrum) -> Spectrum {
-    let [eta, k] = [eta, k].map(Spectrum::to_array);
-    let mut reflected = [0.0; 3];
-    for (i, reflected) in reflected.iter_mut().enumerate() {
-        *reflected = of_band(cos, eta[i], k[i]);
-    }
-    Spectrum::from(reflected)
+    let bands = |s: Spectrum| Vec3::from(s.to_array()).extend(0.0);
+    let [r, g, b, _] = of_band(Vec4::splat(cos), bands(eta), bands(k)).to_array();
+    Spectrum::new(r, g, b)
 }
 
 /// One band in each lane.

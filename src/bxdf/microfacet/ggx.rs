@@ -67,19 +67,19 @@ impl Ggx {
     /// Area of the facets with the normal `m`, per area of the surface and solid angle, in 1/sr.
     #[inline]
     pub fn d(&self, m: Vec3) -> f32 {
-        self.area(m.into())
+        self.distribution(m.into())
     }
 
     /// The fraction of facets that is seen from `w`.
     #[inline]
     pub fn g1(&self, w: Vec3) -> f32 {
-        2.0 * w.z / (w.z + self.stretch(w.into()))
+        2.0 * w.z / (w.z + self.stretched_length(w.into()))
     }
 
     /// The fraction of facets that is seen from both.
     #[inline]
     pub fn g(&self, wo: Vec3, wi: Vec3) -> f32 {
-        2.0 * wo.z * wi.z * self.seen_by_both(wo.into(), wi.into())
+        2.0 * wo.z * wi.z * self.visibility(wo.into(), wi.into())
     }
 
     /// The normal of a facet that is seen from `wo`: by spherical caps (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
@@ -129,31 +129,33 @@ impl<F: Float> Ggx<F> {
 
     /// s(w).
     #[inline(always)]
-    pub(in crate::bxdf) fn stretch(&self, w: Xyz<F>) -> F {
+    pub(in crate::bxdf) fn stretched_length(&self, w: Xyz<F>) -> F {
         let [x, y] = [self.alpha[0] * w.x, self.alpha[1] * w.y];
         (x * x + y * y + w.z * w.z).sqrt()
     }
 
     /// D(m) for a vector of any length.
     #[inline(always)]
-    pub(in crate::bxdf) fn area(&self, m: Xyz<F>) -> F {
+    pub(in crate::bxdf) fn distribution(&self, m: Xyz<F>) -> F {
         let [ax, ay] = self.alpha;
         let [x, y] = [m.x / ax, m.y / ay];
-        let ratio = m.length_squared() / (x * x + y * y + m.z * m.z);
+        // The square of a length that is no float is 0: no facets.
+        let stretched2 = (x * x + y * y + m.z * m.z).max(F::splat(f32::MIN_POSITIVE));
+        let ratio = m.length_squared() / stretched2;
         ratio * ratio * F::splat(FRAC_1_PI) / (ax * ay)
     }
 
     /// G(wo, wi) / (2 cos θo cos θi).
     #[inline(always)]
-    pub(in crate::bxdf) fn seen_by_both(&self, wo: Xyz<F>, wi: Xyz<F>) -> F {
-        F::splat(1.0) / (self.stretch(wo) * wi.z + self.stretch(wi) * wo.z)
+    pub(in crate::bxdf) fn visibility(&self, wo: Xyz<F>, wi: Xyz<F>) -> F {
+        F::splat(1.0) / (self.stretched_length(wo) * wi.z + self.stretched_length(wi) * wo.z)
     }
 
     /// Density of visible normals, where `cos` is wo · m: G1 D cos / cos θo.
     #[inline(always)]
     pub(in crate::bxdf) fn visible(&self, wo: Xyz<F>, m: Xyz<F>, cos: F) -> F {
         let cos = cos.max(F::splat(0.0));
-        F::splat(2.0) * self.area(m) * cos / (wo.z + self.stretch(wo))
+        F::splat(2.0) * self.distribution(m) * cos / (wo.z + self.stretched_length(wo))
     }
 
     #[inline(always)]
@@ -165,8 +167,8 @@ impl<F: Float> Ggx<F> {
     /// Density of `wi` as the reflection of `wo` by a normal of [`sample_bounded`](Self::sample_bounded), where `sum` is wo + wi.
     #[inline(always)]
     pub(in crate::bxdf) fn reflected_bounded(&self, wo: Xyz<F>, sum: Xyz<F>) -> F {
-        let below = self.bound(wo) * wo.z + self.stretch(wo);
-        self.area(sum) / (F::splat(2.0) * below)
+        let below = self.bound(wo) * wo.z + self.stretched_length(wo);
+        self.distribution(sum) / (F::splat(2.0) * below)
     }
 
     /// The normal of a facet that is seen from `wo` and, most often, reflects it upwards: the spherical cap is cut where no such facet is
@@ -191,7 +193,7 @@ impl<F: Float> Ggx<F> {
     #[inline(always)]
     fn hemisphere(&self, wo: Xyz<F>) -> Xyz<F> {
         let [ax, ay] = self.alpha;
-        Xyz { x: ax * wo.x, y: ay * wo.y, z: wo.z } / self.stretch(wo)
+        Xyz { x: ax * wo.x, y: ay * wo.y, z: wo.z } / self.stretched_length(wo)
     }
 
     /// The normal of the facet that reflects `h` to a point of the sphere that is higher than -`end`, by a uniform choice.

@@ -1,13 +1,18 @@
 //! Rough surfaces as many small smooth ones: their distribution, and what light loses that meets more than one of them.
 
+mod azimuths;
+mod boundary_losses;
 mod ggx;
 mod losses;
 pub(super) mod multiple;
+mod returned;
+mod row;
 
 use glam::Vec3;
 
+pub use boundary_losses::BoundaryLosses;
 pub use ggx::Ggx;
-pub use losses::{BoundaryLosses, Losses, Roughnesses};
+pub use losses::{Losses, Roughnesses};
 
 /// Two directions mirrored so that the first is above the surface.
 #[inline]

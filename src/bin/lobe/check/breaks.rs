@@ -19,11 +19,11 @@ pub fn run(options: &Options, threads: usize) -> Result<ExitCode, Box<dyn Error>
     steps.clear();
     let (mut text, mut missed) = (String::new(), 0);
     for (faulty, report) in all.iter().zip(&reports) {
-        let found: Vec<_> = report.findings.iter().map(|finding| finding.fault).collect();
-        let is_named = faulty.expected.iter().any(|fault| found.contains(fault));
+        let found: Vec<_> = report.findings.iter().map(|finding| finding.contract).collect();
+        let is_named = faulty.expected.iter().any(|contract| found.contains(contract));
         missed += usize::from(!is_named);
         let word = if is_named { "named" } else { "missed" };
-        let found: Vec<_> = found.iter().map(|fault| fault.name()).collect();
+        let found: Vec<_> = found.iter().map(|contract| contract.name()).collect();
         let found = if found.is_empty() { "nothing".into() } else { found.join(", ") };
         text += &format!("{word:6}  planted: {}; found: {found}\n", faulty.name);
     }

@@ -1,6 +1,6 @@
 //! What `lobe check --help` says beside its arguments.
 
-use lobe::check::Fault;
+use lobe::check::Contract;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -8,7 +8,7 @@ Examples:
   lobe check scene.toml glass --page glass.html         one of them, with plots
   lobe check scene.toml --set 'material.clay={type=\"plastic\"}' --samples 16384
   lobe check scene.toml --image tint.png                grey where all is right
-  lobe check --break                                    names the faults of lobes that are wrong on purpose
+  lobe check --break                                    names what is wrong in lobes that are so on purpose
   lobe check scene.toml | awk '$1 == \"direction\" && $2 == \"clay\" { print $3, $5 }'    albedo over cos
 
 All lobes of a material are checked together, and where there are several, each alone: NAME/1:TYPE and so on. A material
@@ -28,7 +28,7 @@ within a name is printed as _.
   p          probability that samples distributed by pdf fit it as badly; - if rounding changes pdf so much that they
              are not compared
 Factors eta² of refraction are taken out. `ok` lines name a material or lobe without fault; `fault` lines name one, the
-fault, where it was seen, and what to look for. A right material has a fault in one of 100 runs (another --seed tells).
+contract, where it was seen, and what to look for. A right material has a fault in one of 100 runs (another --seed tells).
 
 With --image, the fraction of uniform light that the surface seen first returns is estimated by its own samples (red), by
 f at these, over pdf (green), and by f at cosine-weighted samples of the whole sphere (blue). Each is the mean of the
@@ -36,10 +36,10 @@ bands, without factors eta²; specular events are added to all three. What is bl
 
 /// Examples, the output, and all faults.
 pub fn text() -> String {
-    let fault = |fault: Fault| {
-        let (name, meaning, hint) = (fault.name(), fault.meaning(), fault.hint());
+    let fault = |contract: Contract| {
+        let (name, meaning, hint) = (contract.name(), contract.meaning(), contract.hint());
         format!("\n  {name:<19}{meaning}\n{:21}to do: {hint}", "")
     };
-    let faults: String = Fault::ALL.into_iter().map(fault).collect();
+    let faults: String = Contract::ALL.into_iter().map(fault).collect();
     format!("{EXAMPLES}\n\nFaults:{faults}")
 }

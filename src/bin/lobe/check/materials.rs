@@ -2,6 +2,7 @@
 
 use std::error::Error;
 
+use lobe::bxdf::ScaledBxDF;
 use lobe::check::{Options, Report, check as check_lobe, check_material, with_lobes};
 use lobe::material::Material;
 use lobe::params::{Problem, Shown};
@@ -72,7 +73,7 @@ fn names(name: &str, material: &dyn Material) -> Vec<String> {
         Shown::whole(name).to_string().split_whitespace().collect::<Vec<_>>().join("_");
     with_lobes(material, |bsdf| {
         let lobes = bsdf.lobes().enumerate();
-        let lobes = lobes.map(|(i, lobe)| format!("{name}/{}:{}", i + 1, lobe.name()));
+        let lobes = lobes.map(|(i, (lobe, _))| format!("{name}/{}:{}", i + 1, lobe.name()));
         let several = if bsdf.lobes().len() > 1 { usize::MAX } else { 0 };
         [name.clone()].into_iter().chain(lobes.take(several)).collect()
     })
@@ -84,6 +85,8 @@ fn check_part(material: &dyn Material, part: usize, options: &Options) -> Report
     let options = Options { white: None, ..*options };
     with_lobes(material, |bsdf| {
         let lobe = bsdf.lobes().nth(lobe);
-        lobe.map_or_else(Report::default, |lobe| check_lobe(lobe, &options))
+        lobe.map_or_else(Report::default, |(&lobe, scale)| {
+            check_lobe(&ScaledBxDF::new(lobe, scale), &options)
+        })
     })
 }

@@ -79,8 +79,8 @@ fn verdict(name: &str, report: &Report) -> String {
         return format!("ok     {name}\n");
     }
     let line = |finding: &lobe::check::Finding| {
-        let (fault, detail) = (finding.fault, Shown::whole(&finding.detail));
-        format!("fault  {name}  {}: {detail}; {}\n", fault.name(), fault.hint())
+        let (contract, detail) = (finding.contract, Shown::whole(&finding.detail));
+        format!("fault  {name}  {}: {detail}; {}\n", contract.name(), contract.hint())
     };
     report.findings.iter().map(line).collect()
 }

@@ -1,18 +1,18 @@
-//! [`Fault`]: the contracts, and what to do where one is broken.
+//! [`Contract`]: what lobes have to keep, and what to do where they do not.
 
-/// A contract that is broken.
+/// What a lobe has to keep; each variant is documented by how it is broken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
-pub enum Fault {
+pub enum Contract {
     /// A value, density or direction is not finite, or negative.
     Invalid,
     /// A sample is on a side of the surface that the flags exclude.
     Side,
     /// The flags of a sample are not those of its event.
     Event,
-    /// The value of a sample is not f at its direction.
+    /// The value of a sample, or of `f_and_pdf`, is not f at its direction.
     Value,
-    /// The density of a sample is not pdf at its direction.
+    /// The density of a sample, or of `f_and_pdf`, is not pdf at its direction.
     Density,
     /// Samples are not distributed as the density says.
     Distribution,
@@ -28,8 +28,8 @@ pub enum Fault {
     Reciprocity,
 }
 
-impl Fault {
-    /// All faults, in the order of their declaration.
+impl Contract {
+    /// All contracts, in the order of their declaration.
     pub const ALL: [Self; 11] = [
         Self::Invalid,
         Self::Side,
@@ -61,14 +61,21 @@ impl Fault {
         }
     }
 
+    /// Whether it is not looked at from directions from which f32 does not [resolve](super::Direction::is_resolved) the lobe.
+    pub const fn needs_resolution(self) -> bool {
+        matches!(self, Self::Distribution | Self::Integral | Self::Albedo)
+    }
+
     /// What was seen, in a sentence without its full stop.
     pub const fn meaning(self) -> &'static str {
         match self {
             Self::Invalid => "a value, density or direction is not finite, or negative",
             Self::Side => "a sample is on a side of the surface that the flags exclude",
             Self::Event => "the flags of a sample are not those of its event",
-            Self::Value => "the value of a sample is not f at its direction",
-            Self::Density => "the density of a sample is not pdf at its direction",
+            Self::Value => "the value of a sample, or of f_and_pdf, is not f at its direction",
+            Self::Density => {
+                "the density of a sample, or of f_and_pdf, is not pdf at its direction"
+            }
             Self::Distribution => "samples are not distributed as pdf says (chi-square)",
             Self::Integral => "pdf and the share of samples without direction do not add up to 1",
             Self::Gain => "more light is returned than comes in",

@@ -1,0 +1,43 @@
+//! [`Facets`]: the surface of a material that reflects by facets, smooth or rough.
+
+use std::sync::Arc;
+
+use super::roughness::Roughness;
+use crate::bxdf::fresnel::Fresnel;
+use crate::bxdf::{Bsdf, Losses, MicrofacetReflection};
+use crate::interaction::SurfaceInteraction;
+use crate::spectrum::Spectrum;
+
+/// Facets that lose no light between them.
+#[derive(Clone)]
+pub struct Facets {
+    fresnel: Fresnel,
+    mean: Spectrum,
+    /// `None` if the surface is smooth everywhere.
+    rough: Option<(Roughness, Arc<Losses>)>,
+}
+
+impl Facets {
+    /// A smooth surface.
+    pub fn new(fresnel: Fresnel) -> Self {
+        Self { fresnel, mean: fresnel.mean(), rough: None }
+    }
+
+    pub fn with_roughness(self, roughness: Roughness) -> Self {
+        let losses = || Arc::new(Losses::of_mirrors(roughness.all()));
+        let rough = (!roughness.is_smooth()).then(|| (roughness.clone(), losses()));
+        Self { rough, ..self }
+    }
+
+    /// The lobe at a point, and a surface without lobes, in a frame that fits.
+    #[inline]
+    pub fn at<'a>(&'a self, si: &SurfaceInteraction) -> (Bsdf<'a>, MicrofacetReflection<'a>) {
+        match &self.rough {
+            Some((roughness, losses)) => {
+                let lobe = MicrofacetReflection::new(roughness.at(si), self.fresnel);
+                (roughness.bsdf(si), lobe.and_multiple(losses, self.mean))
+            }
+            None => (Bsdf::isotropic(si), MicrofacetReflection::new([0.0; 2], self.fresnel)),
+        }
+    }
+}
