@@ -26,7 +26,7 @@ mod edges;
 mod faulty;
 mod reciprocity;
 mod report;
-mod statistics;
+pub mod statistics;
 mod subject;
 
 use crate::bxdf::{Arena, Bsdf, BxDF};

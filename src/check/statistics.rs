@@ -1,4 +1,4 @@
-//! Chi-square and Z tests.
+//! Chi-square and Z tests: the statistics of the check, for tests of other samplers as well.
 
 /// The significance of each of `runs` tests such that all of them together are at 0.01 (Šidák).
 pub fn significance(runs: u32) -> f64 {
@@ -80,19 +80,21 @@ fn ln_gamma(x: f64) -> f64 {
 }
 
 /// Whether two numbers agree to a fraction, or both are as good as 0.
-pub fn is_close(a: f32, b: f32, tolerance: f32) -> bool {
+pub(super) fn is_close(a: f32, b: f32, tolerance: f32) -> bool {
     (a - b).abs() <= tolerance * a.abs().max(b.abs()) + 1e-6
 }
 
-/// Mean and variance of numbers that come one by one (Welford).
-#[derive(Clone, Copy, Default)]
+/// Mean and standard error of numbers that come one by one (Welford's update).
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Mean {
     count: f64,
+    /// The mean so far; 0 without numbers.
     pub mean: f64,
     squares: f64,
 }
 
 impl Mean {
+    /// Adds a number.
     pub fn add(&mut self, x: f64) {
         self.count += 1.0;
         let delta = x - self.mean;
@@ -100,6 +102,7 @@ impl Mean {
         self.squares += delta * (x - self.mean);
     }
 
+    /// The standard error of the mean; not a number for fewer than two.
     pub fn standard_error(&self) -> f64 {
         (self.squares / (self.count - 1.0) / self.count).sqrt()
     }

@@ -3,7 +3,9 @@
 use std::f32::consts::FRAC_1_PI;
 
 use lobe::Spectrum;
-use lobe::bxdf::{Bsdf, BxDF, BxdfFlags, LambertianReflection, Lobe, MAX_LOBES, OrenNayar};
+use lobe::bxdf::{
+    Bsdf, BxDF, BxdfFlags, LambertianReflection, Lobe, MAX_LOBES, OrenNayar, ScaledBxDF,
+};
 use lobe::geometry::Frame;
 use lobe::glam::{Vec2, Vec3};
 
@@ -181,4 +183,36 @@ fn both_normals_have_to_agree() {
         }
     }
     assert!(leaks > 10_000, "only {leaks} trials had directions between the two planes");
+}
+
+/// A term with a scale is a scaled lobe, whichever is drawn, alone and beside others.
+#[test]
+fn terms_are_scaled_lobes() {
+    let (scale, all) = (Spectrum::new(0.25, 0.5, 0.0), BxdfFlags::all());
+    let dimmed = [ScaledBxDF::new(GLOSS, scale), ScaledBxDF::new(GLOSS, scale * 0.5)];
+    for (count, beside) in [(1, false), (1, true), (2, false)] {
+        let (mut terms, mut lobes) = (flat(), flat());
+        if beside {
+            terms.add(WHITE);
+            lobes.add(WHITE);
+        }
+        for (i, dimmed) in dimmed.iter().take(count).enumerate() {
+            terms.add_scaled(Lobe::Custom(&GLOSS), if i == 0 { scale } else { scale * 0.5 });
+            lobes.add(dimmed as &dyn BxDF);
+        }
+        for trial in 0..1000 {
+            let mut rng = Rng::new(320, trial);
+            let (wo, uc, u) = (view(0.7), rng.f32(), Vec2::new(rng.f32(), rng.f32()));
+            let [sample, expected] = [&terms, &lobes].map(|bsdf| bsdf.sample_f(wo, uc, u, all));
+            assert_eq!(sample, expected, "trial {trial}");
+            let wi = rng.direction();
+            let value = terms.f_and_pdf(wo, wi, all);
+            assert_eq!(value, lobes.f_and_pdf(wo, wi, all), "trial {trial}");
+            assert_eq!(value, (terms.f(wo, wi, all), terms.pdf(wo, wi, all)), "trial {trial}");
+            let [rho, expected] = [&terms, &lobes].map(|bsdf| bsdf.rho_hd(wo, &[uc], &[u], all));
+            assert_eq!(rho, expected, "trial {trial}");
+            let [rho, expected] = [&terms, &lobes].map(|bsdf| bsdf.rho_hh(&[u], &[uc], &[u], all));
+            assert_eq!(rho, expected, "trial {trial}");
+        }
+    }
 }

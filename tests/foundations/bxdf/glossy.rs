@@ -3,12 +3,12 @@
 use lobe::Spectrum;
 use lobe::bxdf::fresnel::{Fresnel, dielectric};
 use lobe::bxdf::{
-    BoundaryLosses, BxDF, BxdfFlags, CoatedDiffuse, FresnelMicrofacet, Ggx, Losses,
+    BoundaryLosses, BxDF, BxdfFlags, BxdfSample, CoatedDiffuse, FresnelMicrofacet, Ggx, Losses,
     MicrofacetReflection, RetroReflection, Roughnesses, ThinFresnelSpecular,
 };
 use lobe::glam::{Vec2, Vec3};
 
-use super::{VIEWS, kept, rough_glass, view, white_facets};
+use super::{VIEWS, coat, kept, rough_glass, view, white_facets};
 use crate::common::Rng;
 use crate::common::sphere::gauss;
 
@@ -194,6 +194,55 @@ fn means_of_fresnel_are_integrals() {
         }
         for (a, b) in fresnel.mean().to_array().into_iter().zip(mean) {
             assert!((f64::from(a) - b).abs() < 1e-3, "{fresnel:?}: {a}, expected {b}");
+        }
+    }
+}
+
+/// Every combination of extreme sample values, directions, roughnesses and indices stays finite and not negative, and both ways to ask for
+/// values and densities give the same.
+#[test]
+fn extremes_of_glossy_lobes_stay_finite() {
+    let alphas = [[0.0, 0.0], [1e-4, 1e-4], [1.0, 1.0], [0.0, 1.0], [1e-4, 1e-3]];
+    for alpha in alphas {
+        let mut lobes: Vec<(String, Box<dyn BxDF>)> = Vec::new();
+        let facets = white_facets(alpha);
+        lobes.push(("facets".into(), Box::new(facets)));
+        lobes.push(("retro".into(), Box::new(RetroReflection::new(facets))));
+        for eta in [1.0, 1.0 - 1e-6, 1.0 + 1e-6, 1.5, 1.0 / 1.5] {
+            lobes.push((format!("glass {eta}"), Box::new(rough_glass(alpha, eta))));
+            for albedo in [0.0, 1.0] {
+                let [coat, base] = coat(Spectrum::splat(albedo), alpha, eta);
+                lobes.push((format!("coat {eta}"), coat));
+                lobes.push((format!("base {eta} {albedo}"), base));
+            }
+        }
+        for (name, lobe) in lobes {
+            extremes_stay_finite(&format!("{name}, alpha {alpha:?}"), &*lobe);
+        }
+    }
+}
+
+fn extremes_stay_finite(name: &str, lobe: &dyn BxDF) {
+    let edges = [0.0, 2.0_f32.powi(-24), 0.5, 1.0 - 2.0_f32.powi(-24)];
+    let cosines = [0.0, 1e-30, 1e-7, 1e-4, 1.0];
+    let both_sides = |cosines: &[f32]| -> Vec<Vec3> {
+        cosines.iter().flat_map(|&cos| [view(cos), -view(cos)]).collect()
+    };
+    for wo in both_sides(&cosines[1..]) {
+        for wi in both_sides(&cosines) {
+            let (f, pdf) = lobe.f_and_pdf(wo, wi);
+            assert!(f.is_valid(), "{name}: f({wo}, {wi}) = {f:?}");
+            assert!(pdf >= 0.0 && pdf.is_finite(), "{name}: pdf({wo}, {wi}) = {pdf}");
+            assert_eq!((f, pdf), (lobe.f(wo, wi), lobe.pdf(wo, wi)), "{name}: {wo}, {wi}");
+        }
+        for uc in edges {
+            for u in edges.iter().flat_map(|&x| edges.map(|y| Vec2::new(x, y))) {
+                let Some(sample) = lobe.sample_f(wo, uc, u) else { continue };
+                let BxdfSample { f, wi, pdf, .. } = sample;
+                assert!(f.is_valid(), "{name}: {wo}, {uc}, {u}: f {f:?}");
+                assert!(pdf > 0.0 && pdf.is_finite(), "{name}: {wo}, {uc}, {u}: pdf {pdf}");
+                assert!((wi.length() - 1.0).abs() < 1e-5, "{name}: {wo}, {uc}, {u}: wi {wi}");
+            }
         }
     }
 }
