@@ -13,6 +13,7 @@ rough-glass  material.object={type="glass",eta="glass-bk7",roughness=0.25}
 thin-glass   material.object.type="thin-glass"
 gold         material.object={type="metal",metal="gold"}
 rough-copper material.object={type="metal",metal="copper",roughness=0.25}
+brushed      material.object={type="metal",metal="aluminium",roughness=0.05,roughness_v=0.4}
 plastic      material.object={type="plastic",kd=[0.1,0.25,0.6]}
 rough-plastic material.object={type="plastic",kd=[0.1,0.25,0.6],roughness=0.3}
 translucent  material.object={type="translucent",kd=[0.75,0.6,0.3],transmission=0.6}

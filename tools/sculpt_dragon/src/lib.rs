@@ -6,7 +6,7 @@
 //! - marching tetrahedra on a body-centred cubic lattice (`lattice`; Chan & Purisima 1998);
 //! - sliding and Newton projection onto the field's surface (`relax`);
 //! - decimation by quadric error under the link condition (`decimate`; Garland & Heckbert 1997);
-//! - vertex normals from the field's gradient (`sculpt`).
+//! - vertex normals from the field's gradient (`sculpt`), and texture coordinates of the object (`uv`).
 //!
 //! Each step keeps the mesh a closed, oriented two-manifold. That, one component, no degenerate
 //! triangle and unit normals are checked on the rounded numbers at the end (`verify`); a mesh that
@@ -34,10 +34,12 @@ mod sculpture;
 mod shape;
 mod subject;
 mod tube;
+mod uv;
 mod verify;
 
 pub use mesh::Mesh;
 pub use obj::write as write_obj;
 pub use sculpt::{Sculpted, sculpt};
 pub use subject::Subject;
+pub use uv::{Uv, around_y};
 pub use verify::{Fault, PROMISES};

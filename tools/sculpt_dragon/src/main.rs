@@ -43,7 +43,9 @@ fn run(subject: Subject, triangles: usize, file: &Path) -> Result<(), Box<dyn Er
         sculpt(subject, triangles, threads).map_err(|fault| format!("nothing written: {fault}"))?;
     let name = |error| format!("cannot write {}: {error}", file.display());
     let mut out = BufWriter::new(File::create(file).map_err(name)?);
-    write_obj(&mut out, subject.title(), &sculpted.mesh, &sculpted.normals).map_err(name)?;
+    let uv = subject.uv(&sculpted.mesh);
+    write_obj(&mut out, subject.title(), &sculpted.mesh, &sculpted.normals, uv.as_ref())
+        .map_err(name)?;
     out.flush().map_err(name)?;
 
     let mesh = &sculpted.mesh;

@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 
+use crate::mesh::Mesh;
 use crate::sculpture::Sculpture;
+use crate::uv::{Uv, around_y};
 use crate::{anatomy, object};
 
 /// What is sculpted.
@@ -35,6 +37,14 @@ impl Subject {
         match self {
             Subject::Dragon => "Dragon",
             Subject::Object => "Object for materials",
+        }
+    }
+
+    /// Texture coordinates of a mesh, if it has any.
+    pub fn uv(self, mesh: &Mesh) -> Option<Uv> {
+        match self {
+            Subject::Dragon => None,
+            Subject::Object => Some(around_y(mesh)),
         }
     }
 

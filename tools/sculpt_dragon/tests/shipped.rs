@@ -8,7 +8,8 @@ use sculpt_dragon::{Subject, sculpt, write_obj};
 fn check(subject: Subject, triangles: usize, name: &str) {
     let sculpted = sculpt(subject, triangles, 3).unwrap_or_else(|fault| panic!("{fault}"));
     let mut bytes = Vec::new();
-    write_obj(&mut bytes, subject.title(), &sculpted.mesh, &sculpted.normals).unwrap();
+    let (mesh, uv) = (&sculpted.mesh, subject.uv(&sculpted.mesh));
+    write_obj(&mut bytes, subject.title(), mesh, &sculpted.normals, uv.as_ref()).unwrap();
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets").join(name);
     assert!(std::fs::read(&path).unwrap() == bytes, "{name} is not what the sculptor makes");
 }
