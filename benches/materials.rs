@@ -84,7 +84,7 @@ fn lobes(criterion: &mut Criterion) {
         ("microfacet", &facets.and_multiple(&mirrors, GOLD.mean())),
         ("fresnel microfacet", &FresnelMicrofacet::new(white, white, ALPHA, &boundary)),
         ("coat", &MicrofacetReflection::new(ALPHA, Fresnel::Dielectric { eta: ETA })),
-        ("coated diffuse", &CoatedDiffuse::new(RED, ALPHA, ETA, &coat)),
+        ("coated diffuse", &CoatedDiffuse::new(RED, ALPHA, &coat)),
         ("retro-reflection", &RetroReflection::new(facets.and_multiple(&mirrors, GOLD.mean()))),
     ];
     for (name, lobe) in all {

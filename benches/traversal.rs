@@ -88,7 +88,7 @@ fn sculpt_to(file: &Path, triangles: usize) -> Result<(), Box<dyn Error>> {
     let dragon = sculpt(Subject::Dragon, triangles, threads).map_err(|fault| fault.to_string())?;
     let unfinished: PathBuf = file.with_extension("unfinished");
     let mut out = BufWriter::new(fs::File::create(&unfinished)?);
-    write_obj(&mut out, Subject::Dragon.title(), &dragon.mesh, &dragon.normals)?;
+    write_obj(&mut out, Subject::Dragon.title(), &dragon.mesh, &dragon.normals, None)?;
     out.flush()?;
     fs::rename(unfinished, file)?;
     let quality = dragon.quality;

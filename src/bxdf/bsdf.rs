@@ -122,7 +122,7 @@ impl<'a> Bsdf<'a> {
 
     /// The lobes of two surfaces, scaled by weights in `[0, 1]`, in the frame of the first. If its tangents are arbitrary and both have the
     /// same normal, they are those of the second.
-    pub(crate) fn mixed(&self, weight: f32, other: &Self, by: f32) -> Self {
+    pub(crate) fn mixed(&self, weight: f32, other: &Self, other_weight: f32) -> Self {
         let of_normal = Frame::from_normal(self.frame.n);
         let frame = match self.frame == of_normal && other.frame.n == self.frame.n {
             true => other.frame,
@@ -130,7 +130,7 @@ impl<'a> Bsdf<'a> {
         };
         let rejected = Cell::new(self.rejected() + other.rejected());
         let mut bsdf = Self { rejected, ..Self::in_frame(frame, self.ng) };
-        for (terms, weight) in [(&self.terms, weight), (&other.terms, by)] {
+        for (terms, weight) in [(&self.terms, weight), (&other.terms, other_weight)] {
             for &Term { lobe, scale, .. } in terms {
                 bsdf.add_scaled(lobe, scale * weight);
             }

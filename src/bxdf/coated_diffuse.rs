@@ -10,7 +10,8 @@ use crate::spectrum::Spectrum;
 
 /// Diffuse reflection by a base below a dielectric coat, smooth or rough: light enters the coat, is reflected by the base, and by the coat
 /// from within, until it leaves. What the coat reflects is a lobe of its own, [`MicrofacetReflection`](super::MicrofacetReflection)
-/// without multiple scattering: together, a white base is white at every angle and roughness within 6e-4.
+/// without multiple scattering: together, a white base is white at every angle and roughness, within the error of
+/// the [`Losses`].
 ///
 /// f = T(wo) T(wi) / (π T̄) · R T̄ᵢ / (1 - R (1 - T̄ᵢ)), where T is what the coat does not reflect, T̄ its mean over directions, and
 /// T̄ᵢ = T̄ / η² its mean from within (Kelemen and Szirmay-Kalos 2001; for a smooth coat it is the equation of Mitsuba's `plastic` with
@@ -25,12 +26,13 @@ pub struct CoatedDiffuse<'a> {
 }
 
 impl<'a> CoatedDiffuse<'a> {
-    /// A base that reflects the fraction `r` of light, in `[0, 1]` per band. `alpha` is the roughness of the coat along x and along y, and `eta`
-    /// its index of refraction over that above it; `losses` are those [of a coat](Losses::of_coat) like this.
+    /// A base that reflects the fraction `r` of light, in `[0, 1]` per band. `alpha` is the roughness of the coat along x and along y; `losses`
+    /// are those [of a coat](Losses::of_coat) with this roughness, which know its index: a debug assertion tells others.
     #[inline]
-    pub fn new(r: Spectrum, alpha: [f32; 2], eta: f32, losses: &'a Losses) -> Self {
+    pub fn new(r: Spectrum, alpha: [f32; 2], losses: &'a Losses) -> Self {
         let ggx = Ggx::new(alpha);
-        let mean = losses.mean(&ggx);
+        debug_assert!(losses.are_of(false, &ggx), "losses of another surface");
+        let (mean, eta) = (losses.mean(&ggx), losses.eta());
         let leaving = mean / (eta * eta);
         let of_band = |r: f32| r * leaving / (1.0 - r * (1.0 - leaving));
         let [red, green, blue] = r.to_array();

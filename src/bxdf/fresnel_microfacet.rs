@@ -14,8 +14,8 @@ use crate::spectrum::Spectrum;
 ///
 /// Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", equations 20 and 21, the second divided by η²: paths
 /// start at the camera. What single scattering loses, up to 69 %, goes to both sides in proportion to their [`BoundaryLosses`]: with
-/// η² taken out, a boundary that absorbs nothing is white from both sides, at every angle and roughness, within 1e-3, or 2e-3 if that differs by axis. Normals are drawn by
-/// spherical caps without a bound, which would cut off refracted light.
+/// η² taken out, a boundary that absorbs nothing is white from both sides, at every angle and roughness, within the error of those. Normals
+/// are drawn by spherical caps without a bound, which would cut off refracted light.
 ///
 /// Surfaces that f32 does not tell from smooth ones are specular: with a roughness, or a roughness times |η - 1|, below
 /// [`Ggx::MIN_ALPHA`].
@@ -53,6 +53,8 @@ impl<'a> FresnelMicrofacet<'a> {
         let spread = (losses.eta() - 1.0).abs();
         let bends = Ggx::or_smooth([x * spread, y * spread]).rough().is_some();
         let ggx = Ggx::or_smooth(if bends { alpha } else { [0.0; 2] });
+        let fits = ggx.rough().is_none_or(|ggx| losses.side(false).are_of(false, &ggx));
+        debug_assert!(fits, "losses of another surface");
         let means = losses.means(&ggx);
         let (r, t, crossing) = (r.to_array(), t.to_array(), losses.crossing(means));
         Self { r, t, ggx, means, crossing, losses }
@@ -84,7 +86,7 @@ impl<'a> FresnelMicrofacet<'a> {
             let sum = wo + wi;
             let [reflected, _] = boundary((0.5 * sum.length()).min(1.0), eta);
             let facets = reflected * self.ggx.distribution(sum.into());
-            let seen = self.ggx.visibility(wo.into(), wi.into());
+            let seen = self.ggx.twice_the_visibility(wo.into(), wi.into());
             return [0.5 * facets * seen, 0.25 * facets * visible];
         }
         // As seen from above, so that exchanging the directions changes no bit but the factor η².
@@ -105,7 +107,7 @@ impl<'a> FresnelMicrofacet<'a> {
         let transmitted = 2.0 * index * cos_a * cos_b * both;
         // dm/dwi is η² |wi · m| / (wo · m + η wi · m)², and the last is the length of the sum.
         let facets = transmitted * self.ggx.distribution(sum.into()) * cos_a * cos_b / length2;
-        let seen = self.ggx.visibility(a.into(), (-b).into());
+        let seen = self.ggx.twice_the_visibility(a.into(), (-b).into());
         let f = 2.0 * facets * seen;
         if is_below {
             [f * index * index, facets * visible]
@@ -140,11 +142,8 @@ impl<'a> FresnelMicrofacet<'a> {
         if uc < lost {
             let (uc, crossing) = (uc / lost, self.crossing[usize::from(is_below)]);
             let alpha = self.ggx.mean_alpha();
-            return Some(if uc < crossing {
-                flipped(multiple::sample(alpha, u))
-            } else {
-                multiple::sample(alpha, u)
-            });
+            let wi = multiple::sample(alpha, u);
+            return (wi.z > 0.0).then(|| if uc < crossing { flipped(wi) } else { wi });
         }
         let uc = (uc - lost) / (1.0 - lost);
         let m: Vec3 = self.ggx.sample_visible(wo.into(), u.to_array()).into();

@@ -11,8 +11,8 @@ use crate::spectrum::Spectrum;
 ///
 /// f = F(wo · m) D(m) G(wo, wi) / (4 cos θo cos θi), where m is between wo and wi (Torrance and Sparrow 1967; PBRT 3rd edition,
 /// section 8.4.4). It leaves out light that meets a second facet: up to 69 % of what all facets reflect. With
-/// [`and_multiple`](Self::and_multiple), that comes back: a metal that reflects all light is white at every angle and roughness within
-/// 6e-4, if the losses are those of its own roughness. Directions are drawn by bounded spherical caps.
+/// [`and_multiple`](Self::and_multiple), that comes back: a metal that reflects all light is white at every angle and roughness, within the
+/// error of the [`Losses`]. Directions are drawn by bounded spherical caps.
 ///
 /// Both sides look alike. Surfaces that f32 does not tell from smooth ones, with a roughness below [`Ggx::MIN_ALPHA`], are specular.
 #[doc(alias = "glossy")]
@@ -43,14 +43,15 @@ impl<'a> MicrofacetReflection<'a> {
         Self { ggx: Ggx::or_smooth(alpha), fresnel, multiple: [0.0; 3], losses: None }
     }
 
-    /// Adds reflection by several facets. `losses` are those [of mirrors](Losses::of_mirrors) with this roughness, and `mean` is the
-    /// [mean](Fresnel::mean) of the Fresnel reflectance F.
+    /// Adds reflection by several facets. `losses` are those [of mirrors](Losses::of_mirrors) with this roughness: a debug assertion tells
+    /// others. `mean` is the [mean](Fresnel::mean) of the Fresnel reflectance F, which a material computes once.
     ///
     /// What is lost goes to all directions in proportion to their losses, and is dimmed by F̄² Ē / (1 - F̄ (1 - Ē)), with Ē the mean albedo
     /// of mirrors: light that meets at least two facets, with the mean reflectance at each (Jakob et al. 2014; Kulla and Conty 2017).
     #[inline]
     pub fn and_multiple(self, losses: &'a Losses, mean: Spectrum) -> Self {
         let Some(ggx) = self.ggx.rough() else { return self };
+        debug_assert!(losses.are_of(true, &ggx), "losses of another surface");
         let lost = losses.mean(&ggx);
         let factor = |f: f32| f * f * (1.0 - lost) / (1.0 - f * lost);
         let scale = if lost > 0.0 { std::f32::consts::FRAC_1_PI / lost } else { 0.0 };
@@ -78,7 +79,8 @@ impl<'a> MicrofacetReflection<'a> {
         let sum = wo + wi;
         // wo · m, from the length of the sum.
         let cos = (0.5 * sum.length()).min(1.0);
-        let single = 0.5 * ggx.distribution(sum.into()) * ggx.visibility(wo.into(), wi.into());
+        let single =
+            0.5 * ggx.distribution(sum.into()) * ggx.twice_the_visibility(wo.into(), wi.into());
         let single = self.fresnel.evaluate(cos) * single;
         match self.losses {
             Some(_) => single + Spectrum::from(self.multiple) * (lost * self.lost(&ggx, wi)),

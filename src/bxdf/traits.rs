@@ -165,7 +165,7 @@ pub trait BxDF: Send + Sync {
     fn flags(&self) -> BxdfFlags;
 
     /// Value for a pair of directions, without the cosine, in 1/sr: finite and not negative. It need not
-    /// test on which side of the surface they lie: [`Bsdf`](super::Bsdf) has done so. A delta lobe
+    /// test on which side of the surface they lie: [`Bsdf`](super::Bsdf) has done so. But `wi.z` can be 0. A delta lobe
     /// returns black.
     fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum;
 
@@ -214,7 +214,8 @@ pub trait BxDF: Send + Sync {
     }
 
     /// Hemispherical-directional reflectance ρ_hd: the fraction of uniform incident light that is scattered
-    /// along `wo`, in `[0, 1]` per band (PBRT 3rd edition, section 8.1.1).
+    /// along `wo`, in `[0, 1]` per band (PBRT 3rd edition, section 8.1.1). Of lobes that refract it is radiance, with their factor 1/η²: up to
+    /// η² from within.
     ///
     /// The default is the Monte Carlo mean of f |cos θi| / pdf over the samples `uc` and `u` of
     /// [`sample_f`](BxDF::sample_f). The longer slice is truncated to the length of the shorter.

@@ -26,11 +26,13 @@ pub enum Contract {
     Albedo,
     /// Exchanged directions give another value.
     Reciprocity,
+    /// Samples change with `uc`, which `uses_uc` denies: renderers give such a lobe none.
+    EventNumber,
 }
 
 impl Contract {
     /// All contracts, in the order of their declaration.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Invalid,
         Self::Side,
         Self::Event,
@@ -42,6 +44,7 @@ impl Contract {
         Self::Loss,
         Self::Albedo,
         Self::Reciprocity,
+        Self::EventNumber,
     ];
 
     /// Its name, in one word or two.
@@ -58,12 +61,18 @@ impl Contract {
             Self::Loss => "energy lost",
             Self::Albedo => "albedo",
             Self::Reciprocity => "reciprocity",
+            Self::EventNumber => "use of uc",
         }
     }
 
     /// Whether it is not looked at from directions from which f32 does not [resolve](super::Direction::is_resolved) the lobe.
     pub const fn needs_resolution(self) -> bool {
         matches!(self, Self::Distribution | Self::Integral | Self::Albedo)
+    }
+
+    /// Whether it is not looked at where light crosses the surface [with several indices](super::Report::has_several_indices).
+    pub const fn needs_one_index(self) -> bool {
+        matches!(self, Self::Gain | Self::Loss | Self::Albedo | Self::Reciprocity)
     }
 
     /// What was seen, in a sentence without its full stop.
@@ -82,6 +91,7 @@ impl Contract {
             Self::Loss => "light is lost against the promise to return all",
             Self::Albedo => "the mean weight of samples is not the integral of f cos θ",
             Self::Reciprocity => "f changes when its directions are exchanged",
+            Self::EventNumber => "samples change with uc, and uses_uc is false",
         }
     }
 
@@ -97,8 +107,9 @@ impl Contract {
             Self::Integral => "pdf must integrate to 1 over all directions, less the share of None",
             Self::Gain => "look for a missing factor 1/eta² or a factor that counts twice",
             Self::Loss => "look for a factor below 1 that counts twice",
-            Self::Albedo => "f has parts that sample_f never draws, or the other way round",
+            Self::Albedo => "look at pdf, and for parts of f that sample_f never draws",
             Self::Reciprocity => "f(wo, wi) = f(wi, wo), with the factor eta² across a boundary",
+            Self::EventNumber => "return true from uses_uc",
         }
     }
 }

@@ -30,7 +30,7 @@ struct Tally {
 /// The largest mean change of the density by rounding for which samples and integrals can be compared.
 const RESOLVED: f64 = 2e-3;
 
-/// Every how many samples is compared with f and pdf.
+/// One sample in this many is compared with f and pdf.
 const STRIDE: u32 = 8;
 
 pub fn check(
@@ -72,18 +72,24 @@ pub fn check(
         let mass: f64 = masses.iter().map(|mass| mass[0]).sum();
         (counts.iter().sum(), mass / drawn.max(1e-9) * counted)
     });
-    let p = if counted > 1000.0 { chi_square(expected) } else { 1.0 };
+    let p = (counted > 1000.0).then(|| chi_square(expected));
     let runs = COSINES.len() as u32 * options.checks;
     let is_resolved = tally.directions.is_empty() || tally.rounding.mean < RESOLVED;
-    if is_resolved && p < significance(runs) {
+    if let Some(p) = p.filter(|&p| is_resolved && p < significance(runs)) {
         report.add(Contract::Distribution, || format!("from cos {cos}: chi-square p = {p:.1e}"));
     }
     // Counts add their own error to the rejected share.
     let share = 1.0 - rejected - specular;
     let error = (share.max(0.0) * (1.0 - share) / of).sqrt();
-    if is_resolved && (density - share).abs() > 1e-3 + 5.0 * error {
+    if !density.is_finite() || !(total(1) + total(2) + total(3)).is_finite() {
+        report.add(Contract::Invalid, || {
+            format!(
+                "from cos {cos}: f or pdf where no sample lands, since an integral is no number"
+            )
+        });
+    } else if is_resolved && (density - share).abs() > 1e-3 + 5.0 * error {
         report.add(Contract::Integral, || {
-            format!("from cos {cos}: pdf integrates to {density:.5}, and {share:.5} of the samples have one")
+            format!("from cos {cos}: pdf integrates to {density:.5}, and {share:.5} of the sample values give a direction")
         });
     }
     let estimate = |m: Mean| Estimate { mean: m.mean, error: m.standard_error() };

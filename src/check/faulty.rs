@@ -15,7 +15,7 @@ use crate::spectrum::Spectrum;
 pub struct Faulty {
     /// What is wrong.
     pub name: &'static str,
-    /// The faults one of which has to be found.
+    /// The contracts that it breaks, all of which have to be named.
     pub expected: &'static [Contract],
     /// The lobe.
     pub lobe: Box<dyn BxDF>,
@@ -42,6 +42,10 @@ enum Break {
     HalfSampled,
     OneWay,
     Together,
+    ScaledDensity,
+    Gain,
+    HiddenNan,
+    UsesUc,
 }
 
 /// Lobes that are wrong, each in another way.
@@ -50,7 +54,7 @@ pub fn faulty() -> Vec<Faulty> {
     let diffuse = || -> Box<dyn BxDF> { Box::new(LambertianReflection::new(white)) };
     let rough = || -> Box<dyn BxDF> { Box::new(EnergyPreservingOrenNayar::new(white, 0.7)) };
     let glass = || -> Box<dyn BxDF> { Box::new(FresnelSpecular::new(white, white, 1.5)) };
-    let all: [(_, _, &[Contract], _); 13] = [
+    let all: [(_, _, &[Contract], _); 17] = [
         (
             "a pdf of uniform directions for cosine-weighted samples",
             Break::Density,
@@ -89,6 +93,10 @@ pub fn faulty() -> Vec<Faulty> {
             &[Contract::Density],
             rough(),
         ),
+        ("a pdf that is 2 % too small", Break::ScaledDensity, &[Contract::Integral], rough()),
+        ("energy gained", Break::Gain, &[Contract::Gain], rough()),
+        ("NaN where no sample lands", Break::HiddenNan, &[Contract::Invalid], diffuse()),
+        ("uc used, and uses_uc false", Break::UsesUc, &[Contract::EventNumber], glass()),
     ];
     all.map(|(name, fault, expected, lobe)| Faulty {
         name,
@@ -113,6 +121,8 @@ impl BxDF for Broken {
         let f = self.lobe.f(wo, wi);
         match self.fault {
             Break::Loss => f * 0.98,
+            Break::Gain => f * 1.02,
+            Break::HiddenNan if wi.x < 0.0 => Spectrum::splat(f32::NAN),
             // Normalised, so that nothing is lost.
             Break::OneSided => f * (1.5 * wi.z.abs()),
             Break::GrazingNan if wi.z.abs() < 1e-3 => Spectrum::splat(f32::NAN),
@@ -123,7 +133,7 @@ impl BxDF for Broken {
     fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
         let mut sample = self.lobe.sample_f(wo, uc, u)?;
         match self.fault {
-            Break::HalfSampled if sample.wi.x < 0.0 => return None,
+            Break::HalfSampled | Break::HiddenNan if sample.wi.x < 0.0 => return None,
             Break::OneWay if wo.z < 0.0 => return None,
             Break::BelowHorizon if u.x < 0.01 => sample.wi.z = -sample.wi.z,
             Break::DensityOfSample => sample.pdf *= 1.02,
@@ -157,7 +167,8 @@ impl BxDF for Broken {
                 }
             }
             Break::BelowHorizon => wi.z.abs() * FRAC_1_PI,
-            Break::HalfSampled if wi.x < 0.0 => 0.0,
+            Break::HalfSampled | Break::HiddenNan if wi.x < 0.0 => 0.0,
+            Break::ScaledDensity => 0.98 * self.lobe.pdf(wo, wi),
             _ => self.lobe.pdf(wo, wi),
         }
     }
@@ -165,5 +176,9 @@ impl BxDF for Broken {
     fn f_and_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
         let pdf = self.pdf(wo, wi);
         (self.f(wo, wi), if self.is(Break::Together) { 1.02 * pdf } else { pdf })
+    }
+
+    fn uses_uc(&self) -> bool {
+        self.lobe.uses_uc() && !self.is(Break::UsesUc)
     }
 }

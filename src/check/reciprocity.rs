@@ -94,8 +94,9 @@ fn difference(a: Spectrum, b: Spectrum) -> f64 {
     let of_band = |(a, b): (f32, f32)| {
         let (a, b) = (f64::from(a), f64::from(b));
         let larger = a.abs().max(b.abs());
-        if larger > 1e-7 { (a - b).abs() / larger } else { 0.0 }
+        // Not true of what is no number.
+        if larger <= 1e-7 { 0.0 } else { (a - b).abs() / larger }
     };
     let bands = a.to_array().into_iter().zip(b.to_array());
-    bands.map(of_band).fold(0.0, f64::max)
+    bands.map(of_band).fold(0.0, |most, x| if x > most || x.is_nan() { x } else { most })
 }

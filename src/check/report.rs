@@ -1,11 +1,13 @@
 //! [`Options`] of a check, and its [`Report`].
 
+use std::fmt::{self, Display, Formatter};
+
 use super::contract::Contract;
 
 /// How a check is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// Samples from each direction: at least 1000, for statistics to tell something.
+    /// Samples from each direction; fewer than [`LEAST_SAMPLES`](Self::LEAST_SAMPLES) are taken for so many.
     pub samples: u32,
     /// Seed of the random numbers.
     pub seed: u64,
@@ -14,6 +16,11 @@ pub struct Options {
     /// Number of checks that the significance of 0.01 is shared between, by Šidák's correction: a right lobe fails one of so many checks
     /// with that probability. At least 1.
     pub checks: u32,
+}
+
+impl Options {
+    /// The fewest samples from which statistics tell something.
+    pub const LEAST_SAMPLES: u32 = 2048;
 }
 
 impl Default for Options {
@@ -46,10 +53,25 @@ pub struct Report {
 }
 
 impl Report {
+    /// Whether no contract was seen to be broken.
+    pub fn is_ok(&self) -> bool {
+        self.findings.is_empty()
+    }
+
     pub(super) fn add(&mut self, contract: Contract, detail: impl FnOnce() -> String) {
         if self.findings.iter().all(|finding| finding.contract != contract) {
             self.findings.push(Finding { contract, detail: detail() });
         }
+    }
+}
+
+/// A line for each finding, or "ok".
+impl Display for Report {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        for Finding { contract, detail } in &self.findings {
+            writeln!(f, "{}: {detail}; {}", contract.name(), contract.hint())?;
+        }
+        if self.is_ok() { writeln!(f, "ok") } else { Ok(()) }
     }
 }
 
@@ -82,8 +104,8 @@ pub struct Direction {
     pub density: f64,
     /// The fraction of sample values that give no direction.
     pub rejected: f64,
-    /// The probability that samples distributed by the density fit it as badly.
-    pub p: f64,
+    /// The probability that samples distributed by the density fit it as badly; `None` if there are too few, as of specular lobes.
+    pub p: Option<f64>,
     /// Whether f32 resolves the lobe from here. Where it does not, the density changes with the rounding of directions, and samples are not
     /// compared with integrals.
     pub is_resolved: bool,

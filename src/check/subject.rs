@@ -13,6 +13,7 @@ pub trait Subject {
     fn f_and_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32);
     fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample>;
     fn flags(&self) -> BxdfFlags;
+    fn uses_uc(&self) -> bool;
     /// Whether flags of samples are the lobe's own.
     fn sets_flags(&self) -> bool;
 }
@@ -46,6 +47,9 @@ impl Subject for Local<'_> {
     fn flags(&self) -> BxdfFlags {
         self.0.flags()
     }
+    fn uses_uc(&self) -> bool {
+        self.0.uses_uc()
+    }
     fn sets_flags(&self) -> bool {
         true
     }
@@ -72,6 +76,9 @@ impl Subject for Bsdf<'_> {
     }
     fn flags(&self) -> BxdfFlags {
         self.all_flags()
+    }
+    fn uses_uc(&self) -> bool {
+        Bsdf::uses_uc(self)
     }
     fn sets_flags(&self) -> bool {
         false

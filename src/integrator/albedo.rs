@@ -134,8 +134,10 @@ fn of_sphere(bsdf: &Bsdf, wo: Vec3, numbers: &Numbers) -> f32 {
 /// The relative index of a refraction from `wo`; 1 if the surface refracts none.
 fn index(bsdf: &Bsdf, wo: Vec3, u: Vec2) -> f32 {
     const TRIALS: u32 = 32;
+    // A direction may be one of a facet with total reflection: each trial has another.
     let etas = (0..TRIALS).filter_map(|i| {
         let uc = (i as f32 + 0.5) / TRIALS as f32;
+        let u = (u + i as f32 * Vec2::new(0.754_877_7, 0.569_840_3)).fract();
         Some(bsdf.sample_f(wo, uc, u, BxdfFlags::all())?.eta)
     });
     etas.into_iter().find(|&eta| eta != 1.0).unwrap_or(1.0)

@@ -10,8 +10,8 @@ use crate::texture::{Texture, TextureHandle, TextureKey, Textures};
 
 /// The lobes of two materials, weighted (PBRT 3rd edition, section 9.2.3).
 ///
-/// The shading normal is that of the first, unless the amount is 1. A surface has at most [`MAX_LOBES`](crate::bxdf::MAX_LOBES) lobes: mixtures of
-/// mixtures that have more lose some, which is counted.
+/// The shading normal is that of the first, unless the amount is 1. A surface has at most [`MAX_LOBES`](crate::bxdf::MAX_LOBES)
+/// lobes: mixtures of mixtures that have more lose some, which is counted.
 #[derive(Clone)]
 pub struct MixMaterial {
     both: [Arc<dyn Material>; 2],

@@ -47,7 +47,7 @@ impl Material for PlasticMaterial {
         let (alpha, eta) = (self.roughness.at(si), self.eta);
         bsdf.add(MicrofacetReflection::new(alpha, Fresnel::Dielectric { eta }));
         if let Some(r) = reflectance(self.kd.evaluate(si)) {
-            bsdf.add(CoatedDiffuse::new(r, alpha, eta, &self.losses));
+            bsdf.add(CoatedDiffuse::new(r, alpha, &self.losses));
         }
         bsdf
     }

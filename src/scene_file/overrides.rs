@@ -1,6 +1,6 @@
-//! Overrides: `KEY=VALUE` in TOML, merged into a scene file.
+//! Overrides: `KEY=VALUE` in TOML, put into a scene file.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::error::TextProblem;
 use super::sections::SECTIONS;
@@ -10,7 +10,7 @@ use crate::params::{Fault, Mark, Node, Problem, Value};
 /// Sets a key of the document to the value in the override `text`, whose index is `source`.
 ///
 /// Keys that the file does not have are added, and checked later by the tables' readers. But textures, materials,
-/// lights and shapes have to exist.
+/// lights and shapes have to exist. A value that is a table replaces the table, with all of its keys.
 pub fn apply(root: &mut Node, text: &str, source: usize) -> Result<(), Fault> {
     let mark = Mark { source, offset: 0 };
     let fault = |problem| Fault::new(mark, problem);
@@ -18,7 +18,7 @@ pub fn apply(root: &mut Node, text: &str, source: usize) -> Result<(), Fault> {
         return Err(fault(TextProblem::NoAssignment));
     };
     let new = parse(text, source).map_err(|error| quoted(key, value).map_or(error, fault))?;
-    if !has_leaf(&new) {
+    if new.entries().is_empty() {
         return Err(fault(TextProblem::NoAssignment));
     }
     for (kind, node) in new.entries().iter().map(|entry| (&entry.key, &entry.node)) {
@@ -34,7 +34,12 @@ pub fn apply(root: &mut Node, text: &str, source: usize) -> Result<(), Fault> {
             }
         }
     }
-    merge(root, new);
+    let mut depth = 0;
+    let mut path = &parse(&format!("{key}=0"), source)?;
+    while let [entry] = path.entries() {
+        (depth, path) = (depth + 1, &entry.node);
+    }
+    put(root, new, depth);
     Ok(())
 }
 
@@ -45,29 +50,17 @@ fn quoted(key: &str, value: &str) -> Option<TextProblem> {
     (is_word && parse(&quoted, 0).is_ok()).then_some(TextProblem::Unquoted(quoted))
 }
 
-fn has_leaf(node: &Node) -> bool {
-    match &node.value {
-        Value::Table(table) => table.iter().any(|entry| has_leaf(&entry.node)),
-        _ => true,
-    }
-}
-
-/// Tables are merged key by key, anything else is replaced.
-fn merge(old: &mut Node, new: Node) {
-    match (&mut old.value, new.value) {
-        (Value::Table(old), Value::Table(new)) => {
-            // The file's table may be large, so it is searched once for all keys of the override.
-            let places = new.iter().enumerate().map(|(place, entry)| (entry.key.clone(), place));
-            let places: BTreeMap<String, usize> = places.collect();
-            let mut new: Vec<_> = new.into_iter().map(Some).collect();
-            for known in &mut *old {
-                let same = places.get(&known.key).and_then(|&place| new[place].take());
-                if let Some(entry) = same {
-                    merge(&mut known.node, entry.node);
+/// Puts what stands `depth` keys deep in `new`, which has one key on each level above, into the same place.
+fn put(root: &mut Node, new: Node, depth: usize) {
+    match (&mut root.value, new.value) {
+        (Value::Table(old), Value::Table(new)) if depth > 0 => {
+            for entry in new {
+                match old.iter_mut().find(|known| known.key == entry.key) {
+                    Some(known) => put(&mut known.node, entry.node, depth - 1),
+                    None => old.push(entry),
                 }
             }
-            old.extend(new.into_iter().flatten());
         }
-        (_, value) => *old = Node { mark: new.mark, value },
+        (_, value) => *root = Node { mark: new.mark, value },
     }
 }

@@ -41,25 +41,16 @@ impl Fresnel {
         }
     }
 
-    /// The cosine-weighted mean of [`evaluate`](Self::evaluate) over directions above the surface: ∫ 2 F cos θ d(cos θ), by Gauss's rule with
-    /// six points, to 1e-3.
+    /// The cosine-weighted mean of [`evaluate`](Self::evaluate) over directions above the surface: ∫ F d(cos² θ), in 4096 steps, to 1e-4.
     pub fn mean(&self) -> Spectrum {
-        if let Self::Dielectric { eta } = *self
-            && eta < 1.0
-        {
-            // Total reflection has an edge. n² times what crosses is the same from both sides.
-            let inverse = Self::Dielectric { eta: 1.0 / eta };
-            return Spectrum::WHITE - (Spectrum::WHITE - inverse.mean()) * (eta * eta);
-        }
-        // Abramowitz and Stegun, table 25.4.
-        const POINTS: [[f32; 2]; 3] =
-            [[0.238_619_2, 0.467_913_93], [0.661_209_4, 0.360_761_57], [0.932_469_5, 0.171_324_5]];
-        let mut mean = Spectrum::BLACK;
-        for [x, weight] in POINTS {
-            for cos in [0.5 - 0.5 * x, 0.5 + 0.5 * x] {
-                mean += self.evaluate(cos) * (cos * weight);
+        const STEPS: u32 = 4096;
+        let mut sum = [0.0_f64; 3];
+        for i in 0..STEPS {
+            let cos = ((i as f32 + 0.5) / STEPS as f32).sqrt();
+            for (sum, f) in sum.iter_mut().zip(self.evaluate(cos).to_array()) {
+                *sum += f64::from(f);
             }
         }
-        mean
+        sum.map(|sum| (sum / f64::from(STEPS)) as f32).into()
     }
 }

@@ -14,7 +14,10 @@ use crate::simd::Float;
 /// shadowing are Smith's, correlated by height (Heitz 2014, "Understanding the Masking-Shadowing Function").
 ///
 /// With s(w) = √((αx x)² + (αy y)² + z²), Smith's Λ is (s / |z| - 1) / 2, so that all factors are written without a division by a
-/// cosine, and nothing is 0/0 along the surface. All directions are unit vectors above the surface: callers mirror those from below.
+/// cosine. All directions are unit vectors above the surface: callers mirror those from below.
+///
+/// The lobe of facets that reflect is F D(m) [`visibility`](Self::visibility), where m is between wo and wi; nothing in it is 0/0 along the
+/// surface, unlike G / (4 cos θo cos θi). A reflected direction has the density [`pdf`](Self::pdf) / (4 wo · m).
 ///
 /// ```
 /// use lobe::bxdf::Ggx;
@@ -79,7 +82,13 @@ impl Ggx {
     /// The fraction of facets that is seen from both.
     #[inline]
     pub fn g(&self, wo: Vec3, wi: Vec3) -> f32 {
-        2.0 * wo.z * wi.z * self.visibility(wo.into(), wi.into())
+        4.0 * wo.z * wi.z * self.visibility(wo, wi)
+    }
+
+    /// G(wo, wi) / (4 cos θo cos θi).
+    #[inline]
+    pub fn visibility(&self, wo: Vec3, wi: Vec3) -> f32 {
+        0.5 * self.twice_the_visibility(wo.into(), wi.into())
     }
 
     /// The normal of a facet that is seen from `wo`: by spherical caps (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
@@ -103,12 +112,6 @@ impl Ggx {
         let c = 2.0 * n.dot(h) * n - h;
         let turn = c.y.atan2(c.x) / TAU;
         Vec2::new(if turn < 0.0 { turn + 1.0 } else { turn }, (1.0 - c.z) / (1.0 + h.z))
-    }
-
-    /// Whether the roughness is the same to all sides.
-    #[inline]
-    pub(in crate::bxdf) fn is_isotropic(&self) -> bool {
-        self.alpha[0] == self.alpha[1]
     }
 
     /// The roughness that a surface has on the average over its directions.
@@ -147,7 +150,7 @@ impl<F: Float> Ggx<F> {
 
     /// G(wo, wi) / (2 cos θo cos θi).
     #[inline(always)]
-    pub(in crate::bxdf) fn visibility(&self, wo: Xyz<F>, wi: Xyz<F>) -> F {
+    pub(in crate::bxdf) fn twice_the_visibility(&self, wo: Xyz<F>, wi: Xyz<F>) -> F {
         F::splat(1.0) / (self.stretched_length(wo) * wi.z + self.stretched_length(wi) * wo.z)
     }
 

@@ -11,12 +11,20 @@ use crate::simd::{Block, BlockKernel, Float, InstructionSet};
 const SAMPLES: usize = 8192;
 
 /// What reflects: mirrors, or a boundary.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Interface {
     /// Index of refraction on the far side over that on the near side; `None` if all light is reflected.
     pub eta: Option<f32>,
     /// Whether refracted light counts as returned.
     pub transmits: bool,
+}
+
+impl Interface {
+    /// Number of rows of losses for directions around the normal.
+    pub fn azimuths(&self) -> usize {
+        // Total reflection has edges.
+        if self.transmits { 65 } else { 33 }
+    }
 }
 
 /// Points of the unit square: multiples of the golden ratio.
@@ -91,6 +99,6 @@ fn returned<F: Float>(interface: Interface, ggx: Ggx<F>, wo: Xyz<F>, m: Xyz<F>) 
 /// The fraction of light from a facet that is seen from `wo` that leaves towards `wi`: G(wo, wi) / G1(wo), 0 below the surface.
 #[inline(always)]
 fn unmasked<F: Float>(ggx: Ggx<F>, wo: Xyz<F>, wi: Xyz<F>) -> F {
-    let leaves = (wo.z + ggx.stretched_length(wo)) * wi.z * ggx.visibility(wo, wi);
+    let leaves = (wo.z + ggx.stretched_length(wo)) * wi.z * ggx.twice_the_visibility(wo, wi);
     F::select(wi.z.gt(F::splat(0.0)), leaves, F::splat(0.0))
 }

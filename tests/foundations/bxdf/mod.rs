@@ -72,7 +72,7 @@ fn rough_glass(alpha: [f32; 2], eta: f32) -> FresnelMicrofacet<'static> {
 fn coat(r: Spectrum, alpha: [f32; 2], eta: f32) -> [Box<dyn BxDF>; 2] {
     let losses = kept(Losses::of_coat(eta, Roughnesses::Constant(alpha)));
     let reflection = MicrofacetReflection::new(alpha, Fresnel::Dielectric { eta });
-    [Box::new(reflection), Box::new(CoatedDiffuse::new(r, alpha, eta, losses))]
+    [Box::new(reflection), Box::new(CoatedDiffuse::new(r, alpha, losses))]
 }
 
 /// Roughness along x and y: isotropic, and not.

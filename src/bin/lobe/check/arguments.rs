@@ -22,7 +22,7 @@ pub struct Arguments {
     pub material: Option<String>,
 
     /// Samples from each of eight directions
-    #[arg(long, value_name = "N", default_value_t = Options::default().samples, value_parser = value_parser!(u32).range(1024..=1 << 28))]
+    #[arg(long, value_name = "N", default_value_t = Options::default().samples, value_parser = value_parser!(u32).range(i64::from(Options::LEAST_SAMPLES)..=1 << 28))]
     pub samples: u32,
 
     /// Seed of the samples

@@ -20,7 +20,7 @@ pub fn run(options: &Options, threads: usize) -> Result<ExitCode, Box<dyn Error>
     let (mut text, mut missed) = (String::new(), 0);
     for (faulty, report) in all.iter().zip(&reports) {
         let found: Vec<_> = report.findings.iter().map(|finding| finding.contract).collect();
-        let is_named = faulty.expected.iter().any(|contract| found.contains(contract));
+        let is_named = faulty.expected.iter().all(|contract| found.contains(contract));
         missed += usize::from(!is_named);
         let word = if is_named { "named" } else { "missed" };
         let found: Vec<_> = found.iter().map(|contract| contract.name()).collect();

@@ -26,7 +26,7 @@ within a name is printed as _.
   density    integral of pdf
   rejected   fraction of sample values that give no direction
   p          probability that samples distributed by pdf fit it as badly; - if rounding changes pdf so much that they
-             are not compared
+             are not compared, or if almost all events are specular
 Factors eta² of refraction are taken out. `ok` lines name a material or lobe without fault; `fault` lines name one, the
 contract, where it was seen, and what to look for. A right material has a fault in one of 100 runs (another --seed tells).
 

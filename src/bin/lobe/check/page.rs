@@ -89,6 +89,9 @@ fn cell(report: &Report, contract: Contract, is_asked: bool) -> String {
     if !is_asked {
         return "<td>not promised".into();
     }
+    if report.has_several_indices && contract.needs_one_index() {
+        return "<td>not compared: several indices".into();
+    }
     let resolved = report.directions.iter().filter(|direction| direction.is_resolved).count();
     match report.directions.len() {
         all if contract.needs_resolution() && resolved < all => {

@@ -47,7 +47,8 @@ fn rows(name: &str, direction: &Direction) -> Vec<[String; 12]> {
     let bands = if is_coloured(direction) { &["r", "g", "b"][..] } else { &["all"] };
     let row = |(band, label): (usize, &&str)| {
         let fraction = |number: f64| format!("{number:.5}");
-        let p = if direction.is_resolved { format!("{:.2e}", direction.p) } else { "-".into() };
+        let p = direction.p.filter(|_| direction.is_resolved);
+        let p = p.map_or("-".into(), |p| format!("{p:.2e}"));
         [
             "direction".into(),
             name.into(),
@@ -76,7 +77,13 @@ pub fn is_coloured(direction: &Direction) -> bool {
 
 fn verdict(name: &str, report: &Report) -> String {
     if report.findings.is_empty() {
-        return format!("ok     {name}\n");
+        let left_out = match report.has_several_indices {
+            true => {
+                "; energy, albedo and reciprocity are not compared: light crosses with several indices"
+            }
+            false => "",
+        };
+        return format!("ok     {name}{left_out}\n");
     }
     let line = |finding: &lobe::check::Finding| {
         let (contract, detail) = (finding.contract, Shown::whole(&finding.detail));
