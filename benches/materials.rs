@@ -1,7 +1,7 @@
 //! Cost of each lobe and of each material, in nanoseconds per element: `cargo bench shading`.
 //!
 //! - `shading/lobes/*`: f, pdf and sample_f of one lobe, without a Bsdf.
-//! - `shading/materials/*`: the same of the Bsdf that a material makes, and to make it.
+//! - `shading/materials/*`: the same of the Bsdf that a material makes, and to make it, with the interaction of the hit.
 
 use std::hint::black_box;
 
@@ -120,6 +120,9 @@ fn materials(criterion: &mut Criterion) {
     let hit = || SurfaceInteraction::on_triangle(&mesh, 0, [0.3, 0.3, 0.4], Vec3::Z);
     for (name, material) in all {
         let bsdf: Bsdf = material.compute_scattering(&mut hit(), &arena);
+        measure(criterion, "materials", &format!("make {name}"), &pool, |_| {
+            material.compute_scattering(&mut hit(), &arena)
+        });
         measure(criterion, "materials", &format!("f {name}"), &pool, |s| bsdf.f(s.wo, s.wi, flags));
         measure(criterion, "materials", &format!("pdf {name}"), &pool, |s| {
             bsdf.pdf(s.wo, s.wi, flags)

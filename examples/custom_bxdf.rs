@@ -7,6 +7,7 @@
 mod torus;
 
 use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, BxdfSample};
+use lobe::check::{Options, check};
 use lobe::geometry::{reflect, refract};
 use lobe::glam::{Vec2, Vec3};
 use lobe::integrator::PathIntegrator;
@@ -74,6 +75,9 @@ impl Material for Glass {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
+    // Whether the lobe keeps its contracts, and loses no light.
+    let promises = Options { white: Some(1e-3), ..Options::default() };
+    print!("check: {}", check(&Glass { eta: 1.5 }, &promises));
     let scene = Scene::builder()
         .material("glass", Glass { eta: 1.5 })
         .shape("torus", torus::torus(1.2, 0.5, 64), "glass")

@@ -8,7 +8,7 @@
 //!   and PNG, EXR and PFM files;
 //! - [`shape`], triangle meshes and OBJ files; [`interaction`], what is known about a hit;
 //! - [`texture`], values over a surface; [`bxdf`], reflection models and their sum at a hit, [`bxdf::Bsdf`];
-//!   [`material`], which turns textures into lobes; [`light`];
+//!   [`material`], which turns textures into lobes; [`check`](mod@check), whether lobes and materials keep their contracts; [`light`];
 //! - [`accel`], rays against all triangles; [`camera`]; [`film`], filters and sums of samples;
 //! - [`scene`], what is rendered and how it is seen; [`integrator`], how light is computed;
 //!   [`render`](mod@render), the loop;

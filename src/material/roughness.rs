@@ -51,7 +51,8 @@ impl Roughness {
         Self { scale: RoughnessScale::Perceptual, ..Self::alpha(roughness) }
     }
 
-    /// Another roughness along ∂p/∂v, on the same scale: the reflection of brushed metal.
+    /// Another roughness along ∂p/∂v, on the same scale: the reflection of brushed metal. Meshes need texture coordinates: without them, the
+    /// direction changes from triangle to triangle.
     #[doc(alias = "anisotropic")]
     pub fn across(self, roughness: impl Texture<f32> + 'static) -> Self {
         Self { across: Some(roughness.into_handle()), ..self }
@@ -100,8 +101,11 @@ impl Roughness {
 const ROUGHNESS: TextureKey<f32> =
     TextureKey::of(Key::new("roughness", "roughness; 0 is smooth").range(0.0..=1.0).default(0.0));
 const ACROSS: TextureKey<Option<f32>> = TextureKey::of(
-    Key::optional("roughness_v", "roughness along v, if it differs from that along u")
-        .range(0.0..=1.0),
+    Key::optional(
+        "roughness_v",
+        "roughness along v, if it differs from that along u; the mesh needs texture coordinates",
+    )
+    .range(0.0..=1.0),
 );
 const SCALE: Key<RoughnessScale> = Key::new(
     "roughness_is",

@@ -31,7 +31,7 @@ impl Materials {
             let known = self.0.keys().map(String::as_str);
             Fault {
                 mark: table.mark(key),
-                problem: Problem::unknown_name("material", &name, known),
+                problem: Problem::unknown_name("earlier material", &name, known),
             }
         })
     }

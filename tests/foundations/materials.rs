@@ -175,6 +175,28 @@ fn mixtures_keep_the_direction_of_brushing() {
     }
 }
 
+/// Surfaces whose u runs in another direction of the world are brushed in that one. Seen to fail with a frame whose tangents are arbitrary,
+/// which is that of u where this is the x axis.
+#[test]
+fn brushing_follows_u() {
+    let rough = || Roughness::alpha(0.5).across(0.05);
+    let metal = MetalMaterial::named("iron").unwrap().with_roughness(rough());
+    let plastic = PlasticMaterial::new([0.5; 3], 1.5).with_roughness(rough());
+    let glass = GlassMaterial::new(1.5).with_roughness(rough());
+    let all: [&dyn Material; 3] = [&metal, &plastic, &glass];
+    let turn = |w: Vec3| Vec3::new(0.6 * w.x - 0.8 * w.y, 0.8 * w.x + 0.6 * w.y, w.z);
+    let mesh = TriangleMesh::parallelogram(Vec3::ZERO, turn(Vec3::X), turn(Vec3::Y));
+    let mut hit = SurfaceInteraction::on_triangle(&mesh, 0, [0.3, 0.3, 0.4], Vec3::Z);
+    let wi = Vec3::new(-0.3, -0.1, 0.9).normalize();
+    for material in all {
+        let arena = Arena::new();
+        let turned = material.compute_scattering(&mut hit, &arena);
+        let found = turned.f(turn(WO), turn(wi), BxdfFlags::all()).to_array()[0];
+        let expected = f(material, WO, wi)[0];
+        assert!((found - expected).abs() < 1e-3 * expected, "{found}, expected {expected}");
+    }
+}
+
 /// What a smooth coat and a pane reflect at the normal: F = 0.04.
 #[test]
 fn coats_and_panes_reflect_by_fresnel() {

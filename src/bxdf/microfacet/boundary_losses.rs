@@ -26,7 +26,7 @@ impl BoundaryLosses {
         self.eta
     }
 
-    /// What is lost of light from above the surface, or from below, for directions as if they were above.
+    /// The losses of light from above, or from below: of directions mirrored to z > 0.
     #[inline]
     pub(in crate::bxdf) fn side(&self, is_below: bool) -> &Losses {
         &self.sides[usize::from(is_below)]
@@ -51,5 +51,23 @@ impl BoundaryLosses {
         let both = 0.5 * (from_above * above + from_below * below);
         let both = both.min(above).min(below);
         [above, below].map(|own| if own > 0.0 { both / own } else { 0.0 })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A diffuse light crosses glass of index 1.5 by 0.9082 from above and 0.4036 from below. Seen to fail with the first taken for
+    /// both, and with half of the mean.
+    #[test]
+    fn losses_are_divided_by_the_mean_transmittance() {
+        let losses = BoundaryLosses::new(1.5, Roughnesses::Constant([0.5, 0.5]));
+        let close = |[a, b]: [f32; 2], [c, d]: [f32; 2]| (a - c).abs().max((b - d).abs()) < 1e-3;
+        let both = 0.5 * (0.9082 * 0.3 + 0.4036 * 2.25 * 0.2);
+        assert!(close(losses.crossing([0.3, 0.2]), [both / 0.3, both / 0.45]));
+        // At most all of what is lost crosses.
+        assert!(close(losses.crossing([0.01, 0.2]), [1.0, 0.01 / 0.45]));
+        assert_eq!(losses.crossing([0.0, 0.0]), [0.0; 2]);
     }
 }

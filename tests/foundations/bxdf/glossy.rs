@@ -36,8 +36,8 @@ fn reflection_is_torrance_and_sparrow() {
     }
 }
 
-/// Surfaces that f32 does not tell from smooth ones are specular, from the same roughness for all lobes of a material; at that
-/// roughness, they return as much as rough ones.
+/// Surfaces that f32 does not tell from smooth ones are specular, glass from a larger one than metal, since light is bent less than
+/// reflected; at that roughness, they return as much as rough ones.
 #[test]
 fn smooth_surfaces_are_specular() {
     let is_specular = |lobe: &dyn BxDF| lobe.flags().contains(BxdfFlags::SPECULAR);
@@ -115,6 +115,29 @@ fn retro_reflection_has_the_albedo_of_its_base() {
             let [there, back] = [retro.f(wo, wi), retro.f(wi, wo)].map(|f| f.to_array()[0]);
             assert!((there - back).abs() <= 1e-5 * there.max(back), "trial {trial}");
         }
+    }
+}
+
+/// Facets that reflect half of the light at each meeting return f² Ē / (1 - f (1 - Ē)) of what white ones return by several, with Ē the mean
+/// albedo of single scattering: two meetings at least. Seen to fail with f for f².
+#[test]
+fn several_facets_dim_light_as_often() {
+    let alpha = [1.0, 1.0];
+    let losses = kept(Losses::of_mirrors(Roughnesses::Constant(alpha)));
+    let single = MicrofacetReflection::new(alpha, Fresnel::NoOp);
+    let mut mean = 0.0;
+    for (cos, weight) in [[0.0, 0.3], [0.3, 1.0]].into_iter().flat_map(gauss) {
+        mean += 2.0 * weight * cos * integral(&single, view(cos as f32));
+    }
+    let wo = view(0.4);
+    let by_several = |f: f32| {
+        let both = single.and_multiple(losses, Spectrum::splat(f));
+        integral(&both, wo) - integral(&single, wo)
+    };
+    for f in [0.9, 0.5, 0.1] {
+        let expected = f * f * mean / (1.0 - f * (1.0 - mean));
+        let found = by_several(f as f32) / by_several(1.0);
+        assert!((found - expected).abs() < 2e-3, "{f}: {found}, expected {expected}");
     }
 }
 
@@ -217,7 +240,7 @@ fn means_of_fresnel_are_integrals() {
 /// values and densities give the same.
 #[test]
 fn extremes_of_glossy_lobes_stay_finite() {
-    let alphas = [[0.0, 0.0], [1e-4, 1e-4], [1.0, 1.0], [0.0, 1.0], [1e-4, 1e-3]];
+    let alphas = [[0.0, 0.0], [1e-4, 1e-4], [1.0, 1.0], [0.0, 1.0]];
     for alpha in alphas {
         let mut lobes: Vec<(String, Box<dyn BxDF>)> = Vec::new();
         let facets = white_facets(alpha);
@@ -246,6 +269,12 @@ fn extremes_stay_finite(name: &str, lobe: &dyn BxDF) {
     for wo in both_sides(&cosines[1..]) {
         for wi in both_sides(&cosines) {
             let (f, pdf) = lobe.f_and_pdf(wo, wi);
+            if wi.z == 0.0 {
+                assert!(
+                    f.is_black() && pdf == 0.0,
+                    "{name}: along the surface, {wo}: {f:?}, {pdf}"
+                );
+            }
             assert!(f.is_valid(), "{name}: f({wo}, {wi}) = {f:?}");
             assert!(pdf >= 0.0 && pdf.is_finite(), "{name}: pdf({wo}, {wi}) = {pdf}");
             assert_eq!((f, pdf), (lobe.f(wo, wi), lobe.pdf(wo, wi)), "{name}: {wo}, {wi}");
