@@ -6,6 +6,8 @@ use lobe::check::{Options, check, faulty};
 use lobe::glam::Vec3;
 
 /// Lobes with one fault each.
+/// Caught: f_and_pdf not looked at; specular events without a way back not looked at; findings of energy gained and of the integral left
+/// out.
 #[test]
 fn faults_are_named() {
     let options = Options { samples: 1 << 16, white: Some(1e-3), ..Options::default() };

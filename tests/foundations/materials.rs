@@ -93,6 +93,7 @@ fn f(material: &dyn Material, wo: Vec3, wi: Vec3) -> [f32; 3] {
 }
 
 /// Both ways to write a roughness, and each axis.
+/// Caught: perceptual roughness not squared; one axis for both; white for the metal's mean colour.
 #[test]
 fn rough_metals_are_their_lobes() {
     let gold = Fresnel::Conductor { eta: [0.222, 0.428, 1.334], k: [3.208, 2.461, 1.872] };
@@ -130,6 +131,7 @@ fn rough_glass_is_its_lobe() {
 }
 
 /// The fractions of light that the sum of a material's lobes sends to each side.
+/// Caught: a weight left out or taken for its complement.
 #[test]
 fn weights_of_lobes_add_up() {
     let pi = std::f32::consts::PI;
@@ -160,6 +162,7 @@ fn weights_of_lobes_add_up() {
 }
 
 /// A mixture takes the tangents of the one of its materials that has any.
+/// Caught: a rough metal that stays smooth.
 #[test]
 fn mixtures_keep_the_direction_of_brushing() {
     let brushed =

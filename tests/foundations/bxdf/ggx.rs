@@ -24,6 +24,7 @@ fn grid() -> impl Iterator<Item = Vec2> {
 
 /// Along the edges of the square, where normals are along the
 /// surface, f32 does not tell sample values apart.
+/// Caught: a wrong sine of the cap.
 #[test]
 fn normals_have_an_inverse() {
     for alpha in ALPHAS {
@@ -55,6 +56,7 @@ fn lambda([ax, ay]: [f32; 2], w: DVec3) -> f64 {
 }
 
 /// D, G1 and G near the pole and along the surface, for any roughness.
+/// Caught: the cosine of one direction taken for both in G.
 #[test]
 fn values_are_those_of_f64() {
     for alpha in ALPHAS {
@@ -87,6 +89,7 @@ fn values_are_those_of_f64() {
 }
 
 /// ∫ D(m) cos θm dm = 1: the facets cover the surface; ∫ D_wo(m) dm = 1: those that are seen from wo cover what is seen of it.
+/// Caught: z for z² in D; the density of visible normals without cos θo.
 #[test]
 fn facets_cover_the_surface() {
     for alpha in ALPHAS.into_iter().skip(2) {

@@ -41,6 +41,8 @@ fn check_lobes(alphas: &[[f32; 2]], samples: u32) {
 
 /// Caught: a default `sample_f` that ignores the side of `wo`; a default `pdf` without the side; the value of `ScaledBxDF`'s sample left
 /// unscaled.
+/// Caught: means of losses of the sides exchanged, or without η²; interpolation in the wrong azimuth; shares of reflected and crossing
+/// light exchanged; a density without the share of single scattering; an index that is inverted.
 #[test]
 fn one_lobe() {
     check_lobes(&ALPHAS[3..5], 1 << 16);
@@ -100,6 +102,7 @@ fn materials() -> Vec<(&'static str, Box<dyn Material>)> {
 
 /// Caught: u.x used for the choice of a lobe and, not stretched again, for its direction; the pdf of
 /// the chosen lobe alone; the sum of densities instead of their mean; `f` of the chosen lobe alone.
+/// Caught: caps without their bound in the density; samples not mirrored from below; a scale of a mixture's lobe that is lost.
 #[test]
 fn mixtures() {
     let materials = materials();
