@@ -227,6 +227,28 @@ fn white_furnace() {
     }
 }
 
+/// What EON returns by several reflections is dimmed as often: r² Ē / (1 - r (1 - Ē)) of what a white surface returns (Portsmouth, Kutz and
+/// Hill 2025). Seen to fail with r for all of it.
+#[test]
+fn several_reflections_dim_light_as_often() {
+    // The albedo of a single reflection: A (1 + roughness G / π).
+    let roughness = 0.9;
+    let single = |cos: f64| {
+        let (theta, sin) = (cos.acos(), (1.0 - cos * cos).sqrt());
+        let g = sin * (theta - sin * cos) + 2.0 / 3.0 * (sin / cos * (1.0 - sin.powi(3)) - sin);
+        (1.0 + roughness * g / PI) / (1.0 + (0.5 - 2.0 / (3.0 * PI)) * roughness)
+    };
+    let panels = [[0.0, 0.1], [0.1, 0.4], [0.4, 1.0]].into_iter().flat_map(gauss);
+    let mean: f64 = panels.map(|(cos, weight)| 2.0 * weight * cos * single(cos)).sum();
+    for (r, cos) in [(0.8, 0.9), (0.8, 0.2), (0.3, 0.5)] {
+        let dimmed = r * r * mean / (1.0 - r * (1.0 - mean));
+        let expected = r * single(cos) + dimmed * (1.0 - single(cos));
+        let lobe = EnergyPreservingOrenNayar::new(Spectrum::splat(r as f32), roughness as f32);
+        let found = reflectance(&lobe, view(cos as f32));
+        assert!((found - expected).abs() < 1e-3, "r {r}, cos {cos}: {found}, expected {expected}");
+    }
+}
+
 /// No model reflects more than it receives, with the exception above: ρ_hd stays below 1.0152 R, and below
 /// R from sigma 20 degrees on. Caught: B's 0.45 taken for 0.5.
 #[test]

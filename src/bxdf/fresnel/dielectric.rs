@@ -36,7 +36,7 @@ pub(crate) fn boundary<F: Float>(cos: F, eta: F) -> [F; 2] {
     let ratio = (c * sum - one) / (c * (g - c) + one);
     let reflected = (F::splat(0.5) * across * across * (one + ratio * ratio)).min(one);
     let is_same = eta.eq(one);
-    let is_total = g2.le(zero) & !is_same;
+    let is_total = g2.le(zero);
     let reflected = F::select(is_same, zero, F::select(is_total, one, reflected));
     [reflected, F::select(is_same, c, g / eta)]
 }

@@ -117,8 +117,8 @@ impl Losses {
             Roughnesses::Constant(alpha) => Ggx::new(alpha) == *ggx,
             Roughnesses::Any => true,
         };
-        // A roughness that is not a number equals none, and gives values that are counted.
-        self.interface.eta.is_none() == mirrors && (is_rough_so || *ggx != *ggx)
+        // A roughness that is not a number gives values that are counted.
+        self.interface.eta.is_none() == mirrors && (is_rough_so || ggx.mean_alpha().is_nan())
     }
 
     /// At a direction above the surface.
