@@ -14,12 +14,14 @@ pub fn check(subject: &dyn Subject, options: &Options, report: &mut Report) {
     for wo in COSINES.map(view) {
         for _ in 0..64 {
             let (uc, u) = values(&mut random);
-            let of =
-                |uc| subject.sample_f(wo, uc, u).map(|sample| (sample.wi, sample.f, sample.pdf));
-            if of(uc) != of(1.0 - uc) {
-                report.add(Contract::EventNumber, || {
-                    format!("uc {uc} and {} from wo {wo}", 1.0 - uc)
-                });
+            let other = (uc + 0.5).fract();
+            // Values that are no numbers are another fault, and equal none.
+            let of = |uc| {
+                let sample = subject.sample_f(wo, uc, u).filter(|sample| sample.f.is_valid());
+                sample.map(|sample| (sample.wi, sample.f, sample.pdf))
+            };
+            if of(uc) != of(other) {
+                report.add(Contract::EventNumber, || format!("uc {uc} and {other} from wo {wo}"));
             }
         }
     }

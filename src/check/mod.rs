@@ -4,7 +4,8 @@
 //! [`f`](BxDF::f) and [`pdf`](BxDF::pdf), counts of samples with the integral of the density (chi-square), the mean weight of samples with the
 //! integral of f cos θ, exchanged directions, and sample values and directions at the edge of their range.
 //!
-//! `rho_hd` and `rho_hh` are not looked at. It does not see errors of a model: a lobe that keeps all contracts may still not look like the material it is meant for. Only
+//! `rho_hd` and `rho_hh` are not looked at. It does not see errors of a model: a lobe that keeps all contracts may still not look
+//! like the material it is meant for. Only
 //! directions at one point are tested, and features much narrower than the density says may be missed.
 //!
 //! ```

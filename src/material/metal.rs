@@ -13,7 +13,8 @@ use crate::params::{Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 
-/// A metal, on both sides, which loses no light between its facets: [`MicrofacetReflection`](crate::bxdf::MicrofacetReflection) with Fresnel's equations for conductors (PBRT 3rd
+/// A metal, on both sides, which loses no light between its facets: [`MicrofacetReflection`](crate::bxdf::MicrofacetReflection)
+/// with Fresnel's equations for conductors (PBRT 3rd
 /// edition, section 9.2.3, there without multiple scattering).
 ///
 /// ```

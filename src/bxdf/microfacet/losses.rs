@@ -6,7 +6,7 @@ use super::Ggx;
 use super::azimuths::Azimuths;
 use super::returned::{Interface, Lattice};
 use super::row::{Row, position, split};
-use crate::bxdf::fresnel::boundary;
+use crate::bxdf::fresnel::{Fresnel, boundary};
 
 /// For which roughness [`Losses`] are integrated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -162,11 +162,5 @@ fn alpha_row(alpha: f32) -> (usize, f32) {
 
 /// The fraction that a smooth boundary transmits of light from all directions above.
 pub(super) fn mean_transmitted(eta: f32) -> f32 {
-    // In steps of cos² θ, the mean is cosine-weighted.
-    const STEPS: u32 = 1 << 14;
-    let entering = |i: u32| {
-        let cos = ((f64::from(i) + 0.5) / f64::from(STEPS)).sqrt();
-        1.0 - boundary(cos, f64::from(eta))[0]
-    };
-    ((0..STEPS).map(entering).sum::<f64>() / f64::from(STEPS)) as f32
+    1.0 - Fresnel::Dielectric { eta }.mean().max_component()
 }

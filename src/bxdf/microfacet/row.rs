@@ -58,8 +58,8 @@ const LAST: f32 = (NODES - 1) as f32;
 /// Losses change with cos θ / s, along the surface over angles as small as the roughness, and with cos θ where indices differ little.
 /// The roots are what makes them nearly straight lines along the surface.
 #[inline]
-pub fn position(cos: f32, stretch: f32) -> f32 {
-    0.5 * ((cos / stretch).sqrt() + cos.sqrt().sqrt())
+pub fn position(cos: f32, stretched_length: f32) -> f32 {
+    0.5 * ((cos / stretched_length).sqrt() + cos.sqrt().sqrt())
 }
 
 /// The cosine at a position, where `alpha` is the roughness in the plane of the direction and the normal.

@@ -8,7 +8,7 @@ Examples:
   lobe check scene.toml glass --page glass.html         one of them, with plots
   lobe check scene.toml --set 'material.clay={type=\"plastic\"}' --samples 16384
   lobe check scene.toml --image tint.png                grey where all is right
-  lobe check --break                                    names what is wrong in lobes that are so on purpose
+  lobe check --break                                    checks the check, on lobes with planted faults
   lobe check scene.toml | awk '$1 == \"direction\" && $2 == \"clay\" { print $3, $5 }'    albedo over cos
 
 All lobes of a material are checked together, and where there are several, each alone: NAME/1:TYPE and so on. A material
