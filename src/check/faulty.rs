@@ -106,6 +106,11 @@ pub fn faulty() -> Vec<Faulty> {
     .into()
 }
 
+/// Directions of which the grid of edges has none.
+fn is_hidden(wi: Vec3) -> bool {
+    wi.x < 0.0 && wi.y < 0.0
+}
+
 impl Broken {
     fn is(&self, fault: Break) -> bool {
         self.fault == fault
@@ -122,7 +127,7 @@ impl BxDF for Broken {
         match self.fault {
             Break::Loss => f * 0.98,
             Break::Gain => f * 1.02,
-            Break::HiddenNan if wi.x < 0.0 => Spectrum::splat(f32::NAN),
+            Break::HiddenNan if is_hidden(wi) => Spectrum::splat(f32::NAN),
             // Normalised, so that nothing is lost.
             Break::OneSided => f * (1.5 * wi.z.abs()),
             Break::GrazingNan if wi.z.abs() < 1e-3 => Spectrum::splat(f32::NAN),
@@ -133,7 +138,8 @@ impl BxDF for Broken {
     fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
         let mut sample = self.lobe.sample_f(wo, uc, u)?;
         match self.fault {
-            Break::HalfSampled | Break::HiddenNan if sample.wi.x < 0.0 => return None,
+            Break::HalfSampled if sample.wi.x < 0.0 => return None,
+            Break::HiddenNan if is_hidden(sample.wi) => return None,
             Break::OneWay if wo.z < 0.0 => return None,
             Break::BelowHorizon if u.x < 0.01 => sample.wi.z = -sample.wi.z,
             Break::DensityOfSample => sample.pdf *= 1.02,
@@ -167,7 +173,8 @@ impl BxDF for Broken {
                 }
             }
             Break::BelowHorizon => wi.z.abs() * FRAC_1_PI,
-            Break::HalfSampled | Break::HiddenNan if wi.x < 0.0 => 0.0,
+            Break::HalfSampled if wi.x < 0.0 => 0.0,
+            Break::HiddenNan if is_hidden(wi) => 0.0,
             Break::ScaledDensity => 0.98 * self.lobe.pdf(wo, wi),
             _ => self.lobe.pdf(wo, wi),
         }
