@@ -72,6 +72,12 @@ impl Spectrum {
         Self(self.0.clamp(Vec3A::splat(low), Vec3A::splat(high)))
     }
 
+    /// Relative luminance Y of linear Rec. 709 (ITU-R BT.709).
+    #[inline]
+    pub fn luminance(&self) -> f32 {
+        self.0.dot(Vec3A::new(0.2126, 0.7152, 0.0722))
+    }
+
     /// The largest band.
     #[inline]
     pub fn max_component(self) -> f32 {

@@ -137,7 +137,7 @@ fn what_is_no_image_is_refused() {
         ),
         ("bad.png", b"PF\n", "it is not a PNG file: "),
         ("bad.exr", b"PF\n", "it is not a readable EXR file: "),
-        ("bad.jpg", b"", "its name has to end in .exr, .pfm or .png"),
+        ("bad.tif", b"", "its name has to end in .exr, .jpg, .jpeg, .pfm or .png"),
     ];
     for (name, contents, reason) in cases {
         let file = path(name);

@@ -11,7 +11,7 @@ use crate::spectrum::Spectrum;
 pub enum Encoding {
     /// Linear radiance: EXR and PFM files.
     Linear,
-    /// Codes of a screen, divided by the largest code so that they lie in `[0, 1]`: PNG files.
+    /// Codes of a screen, divided by the largest code so that they lie in `[0, 1]`: PNG and JPEG files.
     Srgb,
 }
 

@@ -36,7 +36,7 @@ pub enum ReadError {
         error: io::Error,
     },
     /// The file name does not end in a known format.
-    #[error("cannot read `{}`: its name has to end in .exr, .pfm or .png", Shown::path(.path))]
+    #[error("cannot read `{}`: its name has to end in .exr, .jpg, .jpeg, .pfm or .png", Shown::path(.path))]
     Format {
         /// The path as it was given.
         path: PathBuf,

@@ -1,4 +1,4 @@
-//! Pictures in memory, and reading and writing them as PNG, OpenEXR and PFM files.
+//! Pictures in memory, and reading and writing them as PNG, OpenEXR and PFM files, and reading JPEG files.
 //!
 //! There are two kinds of pictures. A [`Picture`] is what a render gives: linear radiance for a [`Window`] of the image,
 //! with the variance of each pixel and [`Layers`] about the first hits if they were asked for. An [`Image`] is what was
@@ -9,6 +9,7 @@
 //! |---|---|---|---|
 //! | OpenEXR (feature `exr`) | [`write_exr`] | [`Image::read`] | linear `f32`, with variance and layers |
 //! | PNG | [`write_png`], [`encode_png`] | [`Image::read`] | 8-bit codes of a [`Display`] curve; 16 bits are read, too |
+//! | JPEG | | [`Image::read`] | codes of 8 bits |
 //! | PFM | [`write_pfm`] | [`Image::read`] | linear `f32`, colour alone |
 //!
 //! Files are written whole or not at all: see [`write_file`]. Reading stays within a limit of memory and refuses files that
@@ -40,6 +41,7 @@
 //! ```
 
 mod atomic;
+mod codes;
 mod decoded;
 mod display;
 mod error;
@@ -51,6 +53,7 @@ mod exr_blocks;
 mod exr_part;
 #[cfg(feature = "exr")]
 mod exr_read;
+mod jpeg;
 mod memory;
 mod metadata;
 mod pfm;

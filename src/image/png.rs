@@ -8,10 +8,9 @@ use ::image::{ExtendedColorType, ImageDecoder, ImageEncoder, ImageError, Limits}
 use glam::UVec2;
 
 use super::atomic::write_file;
-use super::memory::{PIXEL, Refusal, area, check, filled, reserve};
+use super::memory::{PIXEL, Refusal, area, check};
 use super::metadata::SOFTWARE;
-use super::{Display, EncodeError, Encoding, Image, Metadata, Picture, Window, WriteError};
-use crate::spectrum::Spectrum;
+use super::{Display, EncodeError, Image, Metadata, Picture, Window, WriteError, codes};
 
 /// Bytes of the signature (8) and the header chunk IHDR (4 + 4 + 13 + 4), which an encoder writes first.
 const HEAD: usize = 8 + 25;
@@ -172,28 +171,5 @@ pub(super) fn size(source: impl BufRead + Seek, limit: u64) -> Result<UVec2, Ref
 
 /// Decodes a PNG file to codes from 0 to 1.
 pub(super) fn decode(source: impl BufRead + Seek, limit: u64) -> Result<Image, Refusal> {
-    let decoder = open(source, limit)?;
-    let (width, height) = decoder.dimensions();
-    let size = UVec2::new(width, height);
-    let color = decoder.color_type();
-    let mut codes = filled(decoder.total_bytes(), 0_u8)?;
-    decoder.read_image(&mut codes).map_err(unreadable)?;
-
-    let channels = usize::from(color.channel_count());
-    let bytes_per_code = usize::from(color.bytes_per_pixel()) / channels;
-    let value = |code: &[u8]| match *code {
-        [high, low] => f32::from(u16::from_ne_bytes([high, low])) / f32::from(u16::MAX),
-        _ => f32::from(code[0]) / f32::from(u8::MAX),
-    };
-    let mut pixels = reserve(area(size))?;
-    pixels.extend(codes.chunks_exact(channels * bytes_per_code).map(|pixel| {
-        let band = |index: usize| value(&pixel[index * bytes_per_code..][..bytes_per_code]);
-        // Grey with or without opacity, or three colours.
-        if channels < 3 {
-            Spectrum::splat(band(0))
-        } else {
-            Spectrum::new(band(0), band(1), band(2))
-        }
-    }));
-    Ok(Image { size, pixels, variance: None, degrees_of_freedom: None, encoding: Encoding::Srgb })
+    codes::decode(open(source, limit)?, unreadable)
 }

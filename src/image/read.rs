@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use glam::UVec2;
 
 use super::memory::{Refusal, mebibytes};
-use super::{Encoding, Image, ReadError, pfm, png};
+use super::{Encoding, Image, ReadError, jpeg, pfm, png};
 #[cfg(feature = "exr")]
 use super::{Metadata, Picture};
 #[cfg(feature = "exr")]
@@ -17,10 +17,11 @@ impl Image {
     /// The limit on the memory that [`Image::read`] may take: 4096 MiB, enough for 16384 x 8192 pixels of linear radiance.
     pub const DEFAULT_LIMIT: u64 = 4096 << 20;
 
-    /// Reads an image. The extension of the name chooses the format: `.exr`, `.pfm` or `.png`, in any case.
+    /// Reads an image. The extension of the name chooses the format: `.exr`, `.jpg` or `.jpeg`, `.pfm` or `.png`, in any case.
     ///
     /// - EXR, with the feature `exr`: the first layer with channels `R`, `G` and `B`, or `Y` alone; with `variance.R`, `variance.G` and
     ///   `variance.B`, if they exist.
+    /// - JPEG: codes are scaled to `[0, 1]` and stay encoded.
     /// - PFM: three bands, or one, which stands for all three.
     /// - PNG: 8 or 16 bits; codes are scaled to `[0, 1]` and stay encoded. Opacity is ignored.
     ///
@@ -120,7 +121,7 @@ impl ImageFile {
     /// What the numbers mean.
     pub fn encoding(&self) -> Encoding {
         match self.format {
-            Format::Png => Encoding::Srgb,
+            Format::Jpeg | Format::Png => Encoding::Srgb,
             _ => Encoding::Linear,
         }
     }
@@ -184,6 +185,7 @@ fn refused(path: &Path, refusal: Refusal) -> ReadError {
 enum Format {
     #[cfg(feature = "exr")]
     Exr,
+    Jpeg,
     Pfm,
     Png,
 }
@@ -197,6 +199,7 @@ impl Format {
             Some("exr") => Ok(Self::Exr),
             #[cfg(not(feature = "exr"))]
             Some("exr") => Err(ReadError::Unsupported { path: path.to_owned() }),
+            Some("jpg" | "jpeg") => Ok(Self::Jpeg),
             Some("pfm") => Ok(Self::Pfm),
             Some("png") => Ok(Self::Png),
             _ => Err(ReadError::Format { path: path.to_owned() }),
@@ -208,6 +211,7 @@ impl Format {
         match self {
             #[cfg(feature = "exr")]
             Self::Exr => exr_read::size(source, length, limit),
+            Self::Jpeg => jpeg::size(source, length, limit),
             Self::Pfm => pfm::size(source, length, limit),
             Self::Png => png::size(source, limit),
         }
@@ -222,6 +226,7 @@ impl Format {
         match self {
             #[cfg(feature = "exr")]
             Self::Exr => exr_read::decode(source, length, limit),
+            Self::Jpeg => jpeg::decode(source, length, limit),
             Self::Pfm => pfm::decode(source, length, limit),
             Self::Png => png::decode(source, limit),
         }
@@ -232,7 +237,7 @@ impl Format {
 mod tests {
     use super::*;
 
-    /// Seen to fail with the arm of this error left out: "its name has to end in .exr, .pfm or .png".
+    /// Seen to fail with the arm of this error left out: "its name has to end in .exr, .jpg, .jpeg, .pfm or .png".
     #[test]
     fn exr_is_refused_by_a_build_without_it() {
         let error = Image::read("a.EXR").unwrap_err();

@@ -167,7 +167,7 @@ pub fn build(
         .fold(builder, |builder, (name, material)| builder.material(name, material));
     let mut reports = Vec::with_capacity(shapes.len());
     for (name, Shape { load, material, emission, transform }) in shapes {
-        let ObjMesh { mut mesh, report } = load()?;
+        let ObjMesh { mut mesh, report, .. } = load()?;
         reports.push(report);
         mesh.transform(&transform);
         builder = builder.add_shape(name, mesh, material.map(|(name, _)| name), emission);

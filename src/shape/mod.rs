@@ -18,6 +18,7 @@
 mod check;
 mod kind;
 mod mesh;
+mod mtl;
 mod obj;
 mod rectangle;
 mod triangle;
@@ -27,8 +28,10 @@ pub use check::MeshError;
 pub use kind::{Load, Read};
 pub use mesh::TriangleMesh;
 pub(crate) use mesh::shading_normal_wide;
+pub use mtl::{MtlError, MtlLibrary, MtlMap, MtlMaterial, MtlNote, parse_mtl, read_mtl};
 pub use obj::{
-    ObjAttribute, ObjError, ObjMesh, ObjProblem, ObjReport, SkippedLines, parse_obj, read_obj,
+    ObjAttribute, ObjError, ObjMaterials, ObjMesh, ObjProblem, ObjReport, SkippedLines, parse_obj,
+    read_obj,
 };
 pub(crate) use triangle::triangle_normal_wide;
 pub use triangle::{TriangleHit, triangle_normal};

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use super::{Load, ObjMesh, ObjReport, Read, TriangleMesh};
+use super::{Load, ObjMesh, Read, TriangleMesh};
 use crate::params::{Fault, Key, Kind, Table};
 
 impl TriangleMesh {
@@ -35,6 +35,6 @@ fn read(table: &Table) -> Result<Load, Fault> {
     let [u, v] = table.get(&EDGES)?;
     Ok(Box::new(move || {
         let mesh = TriangleMesh::parallelogram(corner, u, v);
-        Ok(ObjMesh { mesh, report: ObjReport::default() })
+        Ok(ObjMesh { mesh, ..ObjMesh::default() })
     }))
 }

@@ -31,9 +31,20 @@ impl<T: Copy + Send + Sync> Texture<T> for ConstantTexture<T> {
 
 /// A number or a colour, as in a scene file.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Constant {
+pub enum Constant {
+    /// A number.
     Number(f32),
+    /// A colour.
     Color(Spectrum),
+}
+
+impl From<Constant> for AnyTexture {
+    fn from(constant: Constant) -> Self {
+        match constant {
+            Constant::Number(value) => Self::Number(value.everywhere()),
+            Constant::Color(value) => Self::Color(value.everywhere()),
+        }
+    }
 }
 
 impl Param for Constant {
@@ -65,8 +76,5 @@ pub(super) const KIND: Kind<Read> =
     Kind { name: "constant", meaning: "The same value everywhere", keys: &[&VALUE], read };
 
 fn read(table: &Table, _: &Textures) -> Result<AnyTexture, Fault> {
-    Ok(match table.get(&VALUE)? {
-        Constant::Number(value) => AnyTexture::Number(value.everywhere()),
-        Constant::Color(value) => AnyTexture::Color(value.everywhere()),
-    })
+    table.get(&VALUE).map(AnyTexture::from)
 }

@@ -1,14 +1,24 @@
 //! Textures: values that may vary over a surface.
 
 mod constant;
+mod image;
+mod mapping;
+mod mix;
+mod product;
 mod read;
+mod texels;
 mod traits;
 
 pub use constant::ConstantTexture;
+pub use image::{Channel, ImageTexture, Magnification, Wrap};
+pub use mapping::{Mapping, Projection};
+pub use mix::MixTexture;
+pub use product::ProductTexture;
 pub use read::{AnyTexture, Read, TextureKey, TextureValue, Textures};
+pub use texels::{Curve, Texels};
 pub use traits::{Texture, TextureHandle};
 
 use crate::params::Kind;
 
 /// All kinds of textures of scene files.
-pub static TEXTURES: &[Kind<Read>] = &[constant::KIND];
+pub static TEXTURES: &[Kind<Read>] = &[constant::KIND, image::KIND, product::KIND, mix::KIND];

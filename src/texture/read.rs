@@ -1,9 +1,15 @@
 //! [`TextureKey`] and [`Textures`]: how scene files refer to textures.
 
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
+use super::constant::Constant;
+use super::texels::{Curve, Texels};
 use super::traits::{Texture, TextureHandle};
-use crate::params::{AnyKey, Fault, Key, Param, Problem, Table, Value, quoted};
+use crate::image::{Image, ReadError};
+use crate::interaction::SurfaceInteraction;
+use crate::params::{AnyKey, Fault, Key, Mark, Param, Problem, Table, Value, quoted};
 use crate::spectrum::Spectrum;
 
 /// Function that reads a kind of texture from a scene file. It may use textures defined earlier.
@@ -17,6 +23,26 @@ pub enum AnyTexture {
     Number(TextureHandle<f32>),
     /// With values of type [`Spectrum`].
     Color(TextureHandle<Spectrum>),
+}
+
+impl AnyTexture {
+    /// With numbers as greys.
+    fn into_color(self) -> TextureHandle<Spectrum> {
+        match self {
+            Self::Color(texture) => texture,
+            Self::Number(TextureHandle::Constant(value)) => Spectrum::splat(value).everywhere(),
+            Self::Number(texture) => {
+                let grey = move |si: &SurfaceInteraction| Spectrum::splat(texture.evaluate(si));
+                grey.into_handle()
+            }
+        }
+    }
+}
+
+/// Two textures with values of one type.
+pub(super) enum Pair {
+    Numbers([TextureHandle<f32>; 2]),
+    Colors([TextureHandle<Spectrum>; 2]),
 }
 
 /// A type of values that textures of scene files can have.
@@ -93,14 +119,35 @@ impl<T: Param> AnyKey for TextureKey<T> {
     }
 }
 
-/// The textures of a scene, by name.
+/// The textures of a scene, by name, and the images that they share.
 #[derive(Clone, Default)]
-pub struct Textures(BTreeMap<String, AnyTexture>);
+pub struct Textures {
+    named: BTreeMap<String, AnyTexture>,
+    images: Arc<Mutex<Images>>,
+}
+
+/// Images that were decoded, by file and curve.
+type Images = BTreeMap<(PathBuf, Curve), Arc<Texels>>;
 
 impl Textures {
     /// Adds a texture, or replaces the one of that name.
     pub fn add(&mut self, name: impl Into<String>, texture: AnyTexture) {
-        self.0.insert(name.into(), texture);
+        self.named.insert(name.into(), texture);
+    }
+
+    /// The pixels of an image file, which is read once for each curve.
+    ///
+    /// # Errors
+    /// Those of [`Image::read`].
+    pub fn image(&self, file: &Path, curve: Curve) -> Result<Arc<Texels>, ReadError> {
+        let mut images = self.images.lock().unwrap_or_else(PoisonError::into_inner);
+        let key = (file.to_owned(), curve);
+        if let Some(known) = images.get(&key) {
+            return Ok(known.clone());
+        }
+        let texels = Arc::new(Texels::new(&Image::read(file)?, curve));
+        images.insert(key, texels.clone());
+        Ok(texels)
     }
 
     /// The texture that the key's value names, or a constant texture if the value is a number or a colour.
@@ -134,6 +181,39 @@ impl Textures {
         }
     }
 
+    /// The textures of two keys, each with values of either type; if one is of colours, so are both.
+    ///
+    /// # Errors
+    /// Those of [`Textures::get`].
+    pub(super) fn pair(
+        &self,
+        table: &Table,
+        keys: [&TextureKey<Constant>; 2],
+    ) -> Result<Pair, Fault> {
+        let [first, second] = keys.map(|key| self.any(table, key));
+        Ok(match (first?, second?) {
+            (AnyTexture::Number(first), AnyTexture::Number(second)) => {
+                Pair::Numbers([first, second])
+            }
+            (first, second) => Pair::Colors([first, second].map(AnyTexture::into_color)),
+        })
+    }
+
+    fn any(&self, table: &Table, key: &TextureKey<Constant>) -> Result<AnyTexture, Fault> {
+        let Some(node) = table.value(key)? else { return table.get(&key.0).map(Constant::into) };
+        match &node.value {
+            Value::Text(name) => self.by_name(name, node.mark).cloned(),
+            _ => table.get(&key.0).map(Constant::into),
+        }
+    }
+
+    fn by_name(&self, name: &str, mark: Mark) -> Result<&AnyTexture, Fault> {
+        self.named.get(name).ok_or_else(|| {
+            let known = self.named.keys().map(String::as_str);
+            Fault { mark, problem: Problem::unknown_name("texture", name, known) }
+        })
+    }
+
     /// The texture that the key's value names. `None` if the key is missing or its value is a constant. A texture
     /// that is itself constant has to be in the range of the key `constant`.
     fn named<T: TextureValue>(
@@ -148,10 +228,7 @@ impl Textures {
             Value::Number(_) | Value::Array(_) => return Ok(None),
             other => return Err(table.unfit(key, node, other.to_string(), key.expected())),
         };
-        let Some(texture) = self.0.get(name) else {
-            let problem = Problem::unknown_name("texture", name, self.0.keys().map(String::as_str));
-            return Err(Fault { mark: node.mark, problem });
-        };
+        let texture = self.by_name(name, node.mark)?;
         let found = T::of(texture);
         // Only constant textures can be checked against the range here.
         let value = found.and_then(|texture| texture.constant()).and_then(|value| value.to_value());

@@ -92,12 +92,12 @@ fn compare_tells_errors_and_fails_above_limits() {
             "{said}"
         );
     }
-    folder.write("c.jpg", "");
+    folder.write("c.tif", "");
     folder.write("c.exr", "");
     folder.write("c.pfm", "PF\n2 1\n-1\nshort");
     folder.fails(
-        "compare a.exr c.jpg",
-        "cannot read `c.jpg`: its name has to end in .exr, .pfm or .png",
+        "compare a.exr c.tif",
+        "cannot read `c.tif`: its name has to end in .exr, .jpg, .jpeg, .pfm or .png",
     );
     folder.fails("compare a.exr c.pfm", "cannot read `c.pfm`: 2 x 1 pixels need 24 bytes, not 5");
     folder.fails("compare a.exr no.exr", "cannot read `no.exr`: there is no such file");

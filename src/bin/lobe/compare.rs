@@ -30,11 +30,11 @@ files, the larger a difference has to be. If none are stored, they are taken to 
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// The image: .exr, .pfm or .png
+    /// The image: .exr, .jpg, .pfm or .png
     #[arg(value_name = "IMAGE")]
     image: PathBuf,
 
-    /// The reference: .exr, .pfm or .png
+    /// The reference: .exr, .jpg, .pfm or .png
     #[arg(value_name = "REFERENCE")]
     reference: PathBuf,
 

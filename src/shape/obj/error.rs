@@ -160,7 +160,7 @@ pub enum ObjProblem {
 }
 
 /// Why reading ended, before the error has a file name.
-pub(super) enum Failure {
+pub(in crate::shape) enum Failure {
     Io(io::Error),
     Line(u64, ObjProblem),
     NoFaces(usize),

@@ -7,6 +7,7 @@ use super::faces::Faces;
 use super::keywords::is_ignored;
 use super::line_table::LineTable;
 use super::lines::{LogicalLines, is_blank};
+use super::materials::Materials;
 use super::report::SkippedLines;
 
 /// Corners in each closing face of the feed; the last may have fewer. Small faces are faster,
@@ -19,7 +20,8 @@ pub(super) const CLOSING_CORNERS: usize = 1024;
 ///   parses the numbers.
 /// - `f` lines are parsed here, by [`Faces`]. Errors in indices need the line, and tobj would
 ///   renumber vertices by hashing each corner.
-/// - All other lines are dropped: names, materials, points, lines, curves. Those with an unknown
+/// - `usemtl` and `mtllib` lines go to [`Materials`].
+/// - All other lines are dropped: names, points, lines, curves. Those with an unknown
 ///   keyword are counted.
 ///
 /// tobj returns only the elements that faces refer to, in order of first use. So the feed ends with
@@ -31,6 +33,8 @@ pub(super) struct Feed<R> {
     pub faces: Faces,
     /// The lines of vertices, texture coordinates and normals.
     pub line_tables: [LineTable; 3],
+    /// The materials of the faces.
+    pub materials: Materials,
     /// Lines with an unknown keyword.
     pub unknown: SkippedLines,
     /// The text that tobj is reading.
@@ -51,6 +55,7 @@ impl<R: BufRead> Feed<R> {
             lines: LogicalLines::new(input),
             faces: Faces::default(),
             line_tables: Default::default(),
+            materials: Materials::default(),
             unknown: SkippedLines::default(),
             out: Vec::new(),
             taken: 0,
@@ -98,6 +103,15 @@ impl<R: BufRead> Feed<R> {
                 b"vn" => ObjAttribute::Normal,
                 b"f" => {
                     self.faces.add(rest, number, counts).map_err(|p| Failure::Line(number, p))?;
+                    self.materials.extend(self.faces.vertices.len());
+                    continue;
+                }
+                b"usemtl" => {
+                    self.materials.select(rest);
+                    continue;
+                }
+                b"mtllib" => {
+                    self.materials.library(rest);
                     continue;
                 }
                 _ if number == 1

@@ -30,7 +30,7 @@ pub(super) const fn is_blank(byte: u8) -> bool {
 ///   backslash within a comment does not: there it is usually the end of a Windows path.
 ///
 /// It keeps one chunk and one line, whatever the input is.
-pub(super) struct LogicalLines<R> {
+pub(in crate::shape) struct LogicalLines<R> {
     input: R,
     /// The input up to and including a line feed, or up to [`CHUNK`] bytes of it.
     chunk: Vec<u8>,

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 
 use super::attributes::Attributes;
 use super::faces::{Faces, NONE};
-use super::report::{ObjMesh, ObjReport};
+use super::report::{ObjMaterials, ObjMesh, ObjReport};
 use crate::shape::mesh::TriangleMesh;
 
 /// Indices of a corner's texture coordinate and normal, or [`NONE`].
@@ -67,7 +67,8 @@ pub(super) fn merge(faces: Faces, attributes: Attributes) -> Option<ObjMesh> {
     let short_faces = faces.short;
     let report =
         ObjReport { degenerate_triangles, unused_vertices, short_faces, ..ObjReport::default() };
-    Some(ObjMesh { mesh: TriangleMesh { positions, normals, uvs, indices }, report })
+    let mesh = TriangleMesh { positions, normals, uvs, indices };
+    Some(ObjMesh { mesh, materials: ObjMaterials::default(), report })
 }
 
 /// The value at `index`; zero for [`NONE`].

@@ -7,6 +7,7 @@ mod feed;
 mod keywords;
 mod line_table;
 mod lines;
+mod materials;
 mod merge;
 mod report;
 
@@ -14,14 +15,16 @@ use std::io::{BufRead, BufReader, ErrorKind};
 use std::path::{Path, PathBuf};
 
 pub use error::{ObjAttribute, ObjError, ObjProblem};
-pub use report::{ObjMesh, ObjReport, SkippedLines};
+pub use report::{ObjMaterials, ObjMesh, ObjReport, SkippedLines};
 
 use super::kind::{Load, Read};
 use crate::file;
 use crate::params::{Fault, Key, Kind, Table};
 use attributes::Attributes;
-use error::Failure;
+pub(super) use error::Failure;
 use feed::Feed;
+pub(super) use lines::LogicalLines;
+pub(super) use materials::text;
 
 /// Reads the OBJ file at `path` as one mesh. [`parse_obj`] says how.
 ///
@@ -41,8 +44,8 @@ pub fn read_obj(path: &Path) -> Result<ObjMesh, ObjError> {
 
 /// Reads OBJ text as one mesh. `name` is the name of the file in messages.
 ///
-/// Only `v`, `vt`, `vn` and `f` lines are used. All objects and groups become one mesh. Names,
-/// materials, points, lines and curves are ignored, in whatever encoding they are. What is odd is
+/// All objects and groups become one mesh. `usemtl` and `mtllib` lines become [`ObjMaterials`]; the files that they name are
+/// not opened. Other names, points, lines and curves are ignored, in whatever encoding they are. What is odd is
 /// counted in [`ObjReport`].
 /// - Polygons are triangulated as fans around their first corner. Faces with fewer than three
 ///   corners are skipped and counted.
@@ -100,6 +103,7 @@ fn read(reader: impl BufRead) -> Result<ObjMesh, Failure> {
     drop(models);
     let mut read = merge::merge(feed.faces, attributes).ok_or(Failure::TooMany("vertices"))?;
     read.report.unknown_lines = feed.unknown;
+    read.materials = feed.materials.finish();
     debug_assert_eq!(read.mesh.check(), Ok(()));
     Ok(read)
 }

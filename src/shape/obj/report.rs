@@ -8,8 +8,27 @@ use crate::shape::mesh::TriangleMesh;
 pub struct ObjMesh {
     /// The mesh. It has at least one triangle, and passes [`TriangleMesh::check`].
     pub mesh: TriangleMesh,
+    /// The materials that its triangles name.
+    pub materials: ObjMaterials,
     /// What is unusual about it.
     pub report: ObjReport,
+}
+
+/// The materials of an OBJ file, by name: what its `usemtl` and `mtllib` lines say.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct ObjMaterials {
+    /// The names of `usemtl` lines that faces follow, each once, in the order of the file. Bytes that are no UTF-8 are taken for Latin-1.
+    pub names: Vec<String>,
+    /// For each triangle, the index of its name, or [`ObjMaterials::NONE`] for faces above the first `usemtl`. Empty if no face follows one.
+    pub of_triangles: Vec<u32>,
+    /// The file names of `mtllib` lines, in the order of the file.
+    pub libraries: Vec<String>,
+}
+
+impl ObjMaterials {
+    /// A triangle without material.
+    pub const NONE: u32 = u32::MAX;
 }
 
 /// Counts of what is valid but unusual in an OBJ file, and often a sign of a mistake.

@@ -1,0 +1,167 @@
+//! Reader of MTL files, the material libraries of Wavefront OBJ.
+
+mod map;
+mod report;
+
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+
+pub use map::MtlMap;
+pub use report::{MtlError, MtlLibrary, MtlMaterial, MtlNote};
+
+use super::obj::{Failure, LogicalLines, text};
+use crate::file;
+use crate::params::shortened;
+
+/// Reads the MTL file at `path`. [`parse_mtl`] says how.
+///
+/// # Errors
+/// If the file does not exist, is not an ordinary one or cannot be read. Messages name the file by `path`.
+pub fn read_mtl(path: &Path) -> Result<MtlLibrary, MtlError> {
+    let name = path.display().to_string();
+    let file = file::open(path).map_err(|source| MtlError { name: name.clone(), source })?;
+    parse_mtl(&name, BufReader::new(file))
+}
+
+/// Reads MTL text: for each `newmtl` line, the values of the lines below it as they stand there.
+///
+/// What cannot be read is left out and noted with its line: programs write many keys that others do not know, and a scene should not
+/// fail for that. Lines end and comments begin as in OBJ files. A key that a material has twice has its last value.
+///
+/// ```
+/// let text = "newmtl Brass\nKd 0.9 0.7 0.3\nPr 0.1\nmap_Kd -s 2 2 1 a plank.png\nshine 3\n";
+/// let library = lobe::shape::parse_mtl("room.mtl", text.as_bytes())?;
+/// let brass = &library.materials[0];
+/// assert_eq!((&*brass.name, brass.kd, brass.pr), ("Brass", Some([0.9, 0.7, 0.3]), Some(0.1)));
+/// let plank = brass.map_kd.as_ref().unwrap();
+/// assert_eq!((&*plank.file, plank.scale), ("a plank.png", [2.0, 2.0, 1.0]));
+/// assert_eq!(library.notes[0].to_string(), "line 5: the key `shine` is not known");
+/// # Ok::<(), lobe::shape::MtlError>(())
+/// ```
+///
+/// # Errors
+/// If reading fails.
+pub fn parse_mtl(name: &str, reader: impl BufRead) -> Result<MtlLibrary, MtlError> {
+    let mut lines = LogicalLines::new(reader);
+    let mut library = MtlLibrary::default();
+    loop {
+        match lines.next() {
+            Ok(None) => return Ok(library),
+            Ok(Some((number, line))) => read_line(&mut library, number, line),
+            Err(Failure::Io(source)) => return Err(MtlError { name: name.to_owned(), source }),
+            // Of lines, only the length can be wrong.
+            Err(_) => {
+                let source =
+                    std::io::Error::other("a line is longer than 1 MiB: is it an MTL file?");
+                return Err(MtlError { name: name.to_owned(), source });
+            }
+        }
+    }
+}
+
+fn read_line(library: &mut MtlLibrary, number: u64, line: &[u8]) {
+    let line = text(line);
+    let (key, rest) = line.split_once(char::is_whitespace).unwrap_or((&line, ""));
+    let rest = rest.trim();
+    if key.is_empty() {
+        return;
+    }
+    let MtlLibrary { materials, notes } = library;
+    let mut note = |what: String| notes.push(MtlNote { line: number, what });
+    if key == "newmtl" {
+        if materials.iter().any(|known| known.name == rest) {
+            note(format!("material `{}` stands there twice; the first one holds", shortened(rest)));
+        }
+        materials.push(MtlMaterial {
+            name: rest.to_owned(),
+            line: number,
+            ..MtlMaterial::default()
+        });
+        return;
+    }
+    let Some(material) = materials.last_mut() else {
+        return note(format!("`{}` stands above the first newmtl", shortened(key)));
+    };
+    let expected = match set(material, key, rest) {
+        Set::Done => return,
+        Set::Unknown => return note(format!("the key `{}` is not known", shortened(key))),
+        Set::Unfit(expected) => expected,
+    };
+    note(format!("{key} is `{}`, expected {expected}; it is left out", shortened(rest)));
+}
+
+/// What became of a line.
+enum Set {
+    Done,
+    Unknown,
+    /// What was expected.
+    Unfit(&'static str),
+}
+
+fn set(material: &mut MtlMaterial, key: &str, rest: &str) -> Set {
+    let color = |target: &mut Option<[f32; 3]>| match colour(rest) {
+        None => Set::Unfit("one or three numbers that are finite and not negative"),
+        found => {
+            *target = found;
+            Set::Done
+        }
+    };
+    let number = |target: &mut Option<f32>| match rest.parse::<f32>() {
+        Ok(value) if value.is_finite() => {
+            *target = Some(value);
+            Set::Done
+        }
+        _ => Set::Unfit("a finite number"),
+    };
+    let map = |target: &mut Option<MtlMap>| match map::parse(rest) {
+        None => Set::Unfit("options with their numbers, and the name of an image"),
+        found => {
+            *target = found;
+            Set::Done
+        }
+    };
+    // Programs differ in case.
+    match &*key.to_ascii_lowercase() {
+        "kd" => color(&mut material.kd),
+        "ks" => color(&mut material.ks),
+        "ke" => color(&mut material.ke),
+        "tf" => color(&mut material.tf),
+        "ns" => number(&mut material.ns),
+        "ni" => number(&mut material.ni),
+        // `d -halo` thins towards the middle.
+        "d" => match rest.strip_prefix("-halo") {
+            Some(_) => Set::Unfit("a finite number"),
+            None => number(&mut material.d),
+        },
+        "tr" => number(&mut material.tr),
+        "pr" => number(&mut material.pr),
+        "pm" => number(&mut material.pm),
+        "illum" => match rest.parse() {
+            Ok(model) => {
+                material.illum = Some(model);
+                Set::Done
+            }
+            Err(_) => Set::Unfit("a whole number from 0 to 10"),
+        },
+        "map_kd" => map(&mut material.map_kd),
+        "map_ke" => map(&mut material.map_ke),
+        "map_d" => map(&mut material.map_d),
+        "map_pr" => map(&mut material.map_pr),
+        "map_pm" => map(&mut material.map_pm),
+        "map_bump" | "bump" => map(&mut material.map_bump),
+        "norm" | "map_norm" | "map_kn" => map(&mut material.norm),
+        _ => Set::Unknown,
+    }
+}
+
+/// A colour; one number stands for all bands.
+fn colour(text: &str) -> Option<[f32; 3]> {
+    let numbers: Vec<f32> =
+        text.split_whitespace().map(str::parse).collect::<Result<_, _>>().ok()?;
+    let color = match numbers[..] {
+        [grey] => [grey; 3],
+        [r, g, b] => [r, g, b],
+        _ => return None,
+    };
+    color.iter().all(|&band| band.is_finite() && band >= 0.0).then_some(color)
+}

@@ -1,0 +1,154 @@
+//! [`Mapping`]: where on a flat texture a point of a surface lies.
+
+use std::f32::consts::{FRAC_1_PI, TAU};
+
+use arrayvec::ArrayVec;
+use glam::{Affine2, Quat, Vec2, Vec3};
+
+use crate::interaction::SurfaceInteraction;
+use crate::params::{AnyKey, Choice, Fault, Key, Rotation, Table};
+
+/// How the coordinates (s, t) of a flat texture follow from a point of a surface.
+///
+/// A projection gives coordinates, which are scaled, then rotated, then moved.
+///
+/// ```
+/// use lobe::glam::{Quat, Vec2, Vec3};
+/// use lobe::texture::{Mapping, Projection};
+/// // Twice along u, once along v.
+/// let twice = Mapping::default().scaled(Vec2::new(2.0, 1.0));
+/// // From above, onto the plane of x and z.
+/// let upright = Quat::from_rotation_x(std::f32::consts::FRAC_PI_2);
+/// let map = Mapping::new(Projection::Planar).placed(Vec3::ZERO, upright);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Mapping {
+    projection: Projection,
+    /// Origin and axes of the projection, which is made in coordinates relative to them.
+    center: Vec3,
+    axes: Quat,
+    /// From the coordinates of the projection.
+    plane: Affine2,
+}
+
+/// A projection to coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Projection {
+    /// The texture coordinates of the surface.
+    Uv,
+    /// x and y.
+    Planar,
+    /// Longitude around z, once from 0 to 1, and z.
+    Cylindrical,
+    /// Longitude around z and latitude from the south pole, each from 0 to 1.
+    Spherical,
+    /// The planar projections along x, y and z, mixed by the fourth powers of the normal's coordinates.
+    Triplanar,
+}
+
+impl Choice for Projection {
+    const CHOICES: &'static [(&'static str, Self)] = &[
+        ("uv", Self::Uv),
+        ("planar", Self::Planar),
+        ("cylindrical", Self::Cylindrical),
+        ("spherical", Self::Spherical),
+        ("triplanar", Self::Triplanar),
+    ];
+}
+
+impl Default for Mapping {
+    /// By the surface's texture coordinates, as they are.
+    fn default() -> Self {
+        Self::new(Projection::Uv)
+    }
+}
+
+impl Mapping {
+    /// By a projection in world space.
+    pub const fn new(projection: Projection) -> Self {
+        let (center, axes, plane) = (Vec3::ZERO, Quat::IDENTITY, Affine2::IDENTITY);
+        Self { projection, center, axes, plane }
+    }
+
+    /// Moves the projection's origin to a point in world space and turns its axes. Texture coordinates of surfaces have none.
+    pub const fn placed(self, center: Vec3, axes: Quat) -> Self {
+        Self { center, axes, ..self }
+    }
+
+    /// Multiplies the coordinates: the texture repeats as many times in what was one unit.
+    pub fn scaled(self, factors: Vec2) -> Self {
+        Self { plane: Affine2::from_scale(factors) * self.plane, ..self }
+    }
+
+    /// Rotates the coordinates around (0, 0), from s to t, by an angle in radians.
+    pub fn rotated(self, angle: f32) -> Self {
+        Self { plane: Affine2::from_angle(angle) * self.plane, ..self }
+    }
+
+    /// Adds to the coordinates.
+    pub fn moved(self, by: Vec2) -> Self {
+        Self { plane: Affine2::from_translation(by) * self.plane, ..self }
+    }
+
+    /// Points of the texture and their weights, which add up to 1.
+    #[inline]
+    pub(super) fn points(&self, si: &SurfaceInteraction) -> ArrayVec<(Vec2, f32), 3> {
+        let mut points = ArrayVec::new();
+        if let Projection::Uv = self.projection {
+            points.push((self.plane.transform_point2(si.uv()), 1.0));
+            return points;
+        }
+        let turn = self.axes.inverse();
+        let q = turn * (si.p() - self.center);
+        if let Projection::Triplanar = self.projection {
+            let n = (turn * si.n()).powf(4.0).abs();
+            let sum = n.element_sum();
+            let planes = [([q.y, q.z], n.x), ([q.x, q.z], n.y), ([q.x, q.y], n.z)];
+            points.extend(
+                planes.map(|(st, weight)| {
+                    (self.plane.transform_point2(Vec2::from(st)), weight / sum)
+                }),
+            );
+            return points;
+        }
+        points.push((self.plane.transform_point2(self.projected(q)), 1.0));
+        points
+    }
+
+    fn projected(&self, q: Vec3) -> Vec2 {
+        let longitude = || q.y.atan2(q.x) / TAU;
+        match self.projection {
+            Projection::Cylindrical => Vec2::new(longitude(), q.z),
+            Projection::Spherical => {
+                let z = (q.z / q.length()).clamp(-1.0, 1.0);
+                Vec2::new(longitude(), z.asin() * FRAC_1_PI + 0.5)
+            }
+            _ => q.truncate(),
+        }
+    }
+}
+
+const PROJECTION: Key<Projection> =
+    Key::new("projection", "how points of the surface get texture coordinates")
+        .default(Projection::Uv);
+const CENTER: Key<Vec3> =
+    Key::new("center", "origin of a projection other than uv").default(Vec3::ZERO);
+const TURN: Key<Option<Rotation>> =
+    Key::optional("turn", "of the axes of a projection other than uv");
+const SCALE: Key<[f32; 2]> = Key::new("scale", "factors of the coordinates").default([1.0; 2]);
+const ROTATE: Key<f32> =
+    Key::new("rotate", "of the scaled coordinates, from s to t").in_unit("degrees").default(0.0);
+const OFFSET: Key<[f32; 2]> =
+    Key::new("offset", "added to the scaled, rotated coordinates").default([0.0; 2]);
+
+/// The keys of a mapping.
+pub(super) const KEYS: [&dyn AnyKey; 6] = [&PROJECTION, &CENTER, &TURN, &SCALE, &ROTATE, &OFFSET];
+
+pub(super) fn read(table: &Table) -> Result<Mapping, Fault> {
+    let turn = table.get(&TURN)?.map_or(Quat::IDENTITY, Quat::from);
+    Ok(Mapping::new(table.get(&PROJECTION)?)
+        .placed(table.get(&CENTER)?, turn)
+        .scaled(table.get(&SCALE)?.into())
+        .rotated(table.get(&ROTATE)?.to_radians())
+        .moved(table.get(&OFFSET)?.into()))
+}
