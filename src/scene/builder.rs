@@ -45,6 +45,14 @@ pub enum SceneError {
         /// What it emits.
         radiance: [f32; 3],
     },
+    /// The materials of a shape's triangles are not one for each.
+    #[error("shape {}: {reason}", quoted(shape))]
+    Materials {
+        /// The shape.
+        shape: String,
+        /// What is wrong.
+        reason: String,
+    },
     /// A mesh failed [`TriangleMesh::check`].
     #[error("shape {}: {}", quoted(.0), .1)]
     Mesh(String, MeshError),
@@ -60,8 +68,16 @@ enum NewEmission {
 struct NewShape {
     name: String,
     mesh: TriangleMesh,
-    material: Option<String>,
+    material: NewMaterial,
     emission: Option<NewEmission>,
+}
+
+/// What a shape is made of, before `build`.
+enum NewMaterial {
+    /// All of it; `None` reflects nothing.
+    Everywhere(Option<String>),
+    /// Names, and which of them each triangle has.
+    ByTriangle(Vec<String>, Vec<u32>),
 }
 
 /// Collects the parts of a [`Scene`] in any order. [`build`](Self::build) checks them.
@@ -97,6 +113,19 @@ impl SceneBuilder {
         self.add_shape(name.into(), mesh, Some(material.into()), None)
     }
 
+    /// Adds a mesh in world space whose triangles differ in material: for each, an index into `materials`.
+    pub fn shape_with_materials(
+        mut self,
+        name: impl Into<String>,
+        mesh: TriangleMesh,
+        materials: Vec<String>,
+        of_triangles: Vec<u32>,
+    ) -> Self {
+        let (name, material) = (name.into(), NewMaterial::ByTriangle(materials, of_triangles));
+        self.shapes.push(NewShape { name, mesh, material, emission: None });
+        self
+    }
+
     /// Adds a mesh in world space that emits light and reflects none.
     pub fn lamp(self, name: impl Into<String>, mesh: TriangleMesh, emission: Emission) -> Self {
         self.add_shape(name.into(), mesh, None, Some(emission))
@@ -121,6 +150,7 @@ impl SceneBuilder {
         emission: Option<Emission>,
     ) -> Self {
         let emission = emission.map(NewEmission::Constant);
+        let material = NewMaterial::Everywhere(material);
         self.shapes.push(NewShape { name, mesh, material, emission });
         self
     }
@@ -136,7 +166,7 @@ impl SceneBuilder {
         material: Option<&str>,
         light: impl Light + 'static,
     ) -> Self {
-        let (name, material) = (name.into(), material.map(str::to_owned));
+        let (name, material) = (name.into(), NewMaterial::Everywhere(material.map(str::to_owned)));
         let emission = Some(NewEmission::Light(light.into_arc()));
         self.shapes.push(NewShape { name, mesh, material, emission });
         self
@@ -163,8 +193,7 @@ impl SceneBuilder {
         let mut shapes = Vec::with_capacity(self.shapes.len());
         let mut meshes = Vec::with_capacity(self.shapes.len());
         let mut lights = self.lights;
-        let mut materials: Vec<Arc<dyn Material>> = Vec::new();
-        let mut indices = BTreeMap::new();
+        let mut known = Known { all: self.materials, used: Vec::new(), indices: BTreeMap::new() };
         for NewShape { name, mesh, material, emission } in self.shapes {
             mesh.check().map_err(|error| SceneError::Mesh(name.clone(), error))?;
             if let Some(NewEmission::Constant(Emission { radiance, .. })) = emission
@@ -172,22 +201,7 @@ impl SceneBuilder {
             {
                 return Err(SceneError::Emission { shape: name, radiance: radiance.to_array() });
             }
-            let index = indices.entry(material.clone());
-            let material = match (index, material) {
-                (Entry::Occupied(known), _) => *known.get(),
-                (Entry::Vacant(new), material) => {
-                    materials.push(match material {
-                        Some(material) => match self.materials.get(&material) {
-                            Some(found) => found.clone(),
-                            None => {
-                                return Err(SceneError::UnknownMaterial { shape: name, material });
-                            }
-                        },
-                        None => Arc::new(MatteMaterial::new(Spectrum::BLACK)),
-                    });
-                    *new.insert(materials.len() as u32 - 1)
-                }
-            };
+            let (material, materials) = known.of_shape(&name, material, mesh.indices.len())?;
             // A mesh without area neither is visible nor emits.
             let light: Option<Arc<dyn Light>> = emission.and_then(|emission| match emission {
                 NewEmission::Constant(Emission { radiance, two_sided }) => {
@@ -199,7 +213,7 @@ impl SceneBuilder {
                 lights.push(light);
                 lights.len() - 1
             });
-            shapes.push(Shape { name, material, light });
+            shapes.push(Shape { name, material, materials, light });
             meshes.push(mesh);
         }
         let triangles = meshes.iter().map(|mesh| mesh.indices.len()).sum();
@@ -213,9 +227,65 @@ impl SceneBuilder {
             shapes,
             meshes,
             lights,
-            materials,
+            materials: known.used,
             accel,
             build_seconds: start.seconds(),
         })
+    }
+}
+
+/// The materials that shapes have so far.
+struct Known {
+    all: BTreeMap<String, Arc<dyn Material>>,
+    used: Vec<Arc<dyn Material>>,
+    /// Of `used`, by name.
+    indices: BTreeMap<Option<String>, u32>,
+}
+
+impl Known {
+    /// The index of a shape's first material, and that of each triangle if there are several.
+    fn of_shape(
+        &mut self,
+        shape: &str,
+        material: NewMaterial,
+        triangles: usize,
+    ) -> Result<(u32, Vec<u32>), SceneError> {
+        let (names, of_triangles) = match material {
+            NewMaterial::Everywhere(name) => return Ok((self.index(shape, name)?, Vec::new())),
+            NewMaterial::ByTriangle(names, of_triangles) => (names, of_triangles),
+        };
+        let wrong = |reason: String| SceneError::Materials { shape: shape.to_owned(), reason };
+        if of_triangles.len() != triangles {
+            let found = of_triangles.len();
+            return Err(wrong(format!("{found} materials for {triangles} triangles")));
+        }
+        if let Some(index) = of_triangles.iter().find(|&&index| index as usize >= names.len()) {
+            let count = names.len();
+            return Err(wrong(format!("material {index} of {count}, which count from 0")));
+        }
+        let names = names.into_iter().map(|name| self.index(shape, Some(name)));
+        let indices: Vec<u32> = names.collect::<Result<_, _>>()?;
+        let of_triangles: Vec<u32> =
+            of_triangles.into_iter().map(|index| indices[index as usize]).collect();
+        let first = of_triangles.first().copied().unwrap_or_default();
+        let is_one = of_triangles.iter().all(|&index| index == first);
+        Ok((first, if is_one { Vec::new() } else { of_triangles }))
+    }
+
+    /// The index of a material, which is added if it is new.
+    fn index(&mut self, shape: &str, name: Option<String>) -> Result<u32, SceneError> {
+        let Entry::Vacant(new) = self.indices.entry(name.clone()) else {
+            return Ok(self.indices[&name]);
+        };
+        self.used.push(match name {
+            Some(material) => match self.all.get(&material) {
+                Some(found) => found.clone(),
+                None => {
+                    return Err(SceneError::UnknownMaterial { shape: shape.to_owned(), material });
+                }
+            },
+            None => Arc::new(MatteMaterial::new(Spectrum::BLACK)),
+        });
+        Ok(*new.insert(self.used.len() as u32 - 1))
     }
 }

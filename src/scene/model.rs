@@ -42,11 +42,13 @@ pub struct Scene {
     pub(super) build_seconds: f64,
 }
 
-/// A mesh's name, material and light.
+/// A mesh's name, materials and light.
 pub(super) struct Shape {
     pub name: String,
-    /// Index of its material.
+    /// Index of its first material, or its only one.
     pub material: u32,
+    /// Index of the material of each triangle; empty if there is only one.
+    pub materials: Vec<u32>,
     /// Index of its area light, if it emits.
     pub light: Option<usize>,
 }
@@ -106,7 +108,8 @@ impl Scene {
     /// Index of the material at a hit. Shapes may share one.
     #[inline]
     pub(crate) fn material_at(&self, hit: &Hit) -> u32 {
-        self.shapes[hit.shape as usize].material
+        let shape = &self.shapes[hit.shape as usize];
+        *shape.materials.get(hit.triangle as usize).unwrap_or(&shape.material)
     }
 
     /// Number of materials.
