@@ -37,6 +37,16 @@ impl MetalMaterial {
         Self { facets: Facets::new(fresnel) }
     }
 
+    /// A smooth metal that reflects this fraction of light along its normal, clamped to `[0, 0.9999]` per band, as of index 1 (PBRT 4th
+    /// edition, `ConductorMaterial`).
+    pub fn reflecting(r: Spectrum) -> Self {
+        let k = r.to_array().map(|r| {
+            let r = r.clamp(0.0, 0.9999);
+            2.0 * (r / (1.0 - r)).sqrt()
+        });
+        Self::new(Spectrum::WHITE, k.into())
+    }
+
     /// A smooth metal of the list of scene files, such as "gold".
     pub fn named(name: &str) -> Option<Self> {
         Conductor::named(name).map(|Conductor { eta, k }| Self::new(eta.into(), k.into()))
