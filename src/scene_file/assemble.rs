@@ -1,10 +1,11 @@
 //! Conversion of a document to a scene.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use glam::{Affine3A, Quat, UVec2};
 
+use super::faces::FaceMaterials;
 use super::sections::{self, SECTIONS};
 use crate::accel::InstructionSet;
 use crate::camera::Camera;
@@ -23,14 +24,17 @@ pub struct Description {
     view: View,
     pub settings: RenderSettings,
     pub materials: Vec<(String, Arc<dyn Material>)>,
+    textures: Textures,
     lights: Vec<Arc<dyn Light>>,
     shapes: Vec<(String, Shape)>,
 }
 
 struct Shape {
     load: Load,
-    /// Name of the material and position of that name; `None` for an emitter that reflects nothing.
+    /// Name of the material and position of that name.
     material: Option<(String, Mark)>,
+    /// What is wrong if there is no material, and faces name none either; `None` for an emitter, which may reflect nothing.
+    missing: Option<Fault>,
     emission: Option<Emission>,
     /// From mesh to world space.
     transform: Affine3A,
@@ -69,6 +73,7 @@ pub fn describe(document: &Document) -> Result<Description, Fault> {
             integrator,
         },
         materials,
+        textures,
         lights: all(root.tables(sections::LIGHT.key)?, light)?,
         shapes: all(root.tables(sections::SHAPE.key)?, shape)?,
     })
@@ -123,13 +128,13 @@ fn shape(table: Table) -> Result<Shape, Fault> {
         let translation = table.get(&sections::TRANSLATE)?;
         let load = (kind.read)(table)?;
         let material = table.get(&sections::SHAPE_MATERIAL)?;
-        if material.is_none() && emission.is_none() {
-            return Err(table.missing(&sections::SHAPE_MATERIAL));
-        }
+        let is_missing = material.is_none() && emission.is_none();
+        let missing = is_missing.then(|| table.missing(&sections::SHAPE_MATERIAL));
         let mark = table.mark(&sections::SHAPE_MATERIAL);
         Ok(Shape {
             load,
             material: material.map(|material| (material, mark)),
+            missing,
             emission,
             // Scale, then rotate, then translate.
             transform: Affine3A::from_scale_rotation_translation(scale, rotation, translation),
@@ -142,8 +147,8 @@ pub fn build(
     description: Description,
     document: &Document,
     instruction_set: InstructionSet,
-) -> Result<(Scene, View, RenderSettings, Vec<ObjReport>), Fault> {
-    let Description { view, settings, materials, lights, shapes } = description;
+) -> Result<(Scene, View, RenderSettings, Vec<ObjReport>, Vec<String>), Fault> {
+    let Description { view, settings, materials, textures, lights, shapes } = description;
     let fault = |error: SceneError| {
         let keys = match &error {
             SceneError::Mesh(shape, _) => vec![sections::SHAPE.key, shape],
@@ -162,15 +167,25 @@ pub fn build(
     let builder = lights
         .into_iter()
         .fold(Scene::builder().instruction_set(instruction_set), SceneBuilder::light);
+    let by_name: BTreeMap<String, Arc<dyn Material>> = materials.iter().cloned().collect();
     let mut builder = materials
         .into_iter()
         .fold(builder, |builder, (name, material)| builder.material(name, material));
     let mut reports = Vec::with_capacity(shapes.len());
-    for (name, Shape { load, material, emission, transform }) in shapes {
-        let ObjMesh { mut mesh, report, .. } = load()?;
+    let mut faces = FaceMaterials { known: &by_name, textures: &textures, notes: Vec::new() };
+    for (name, Shape { load, material, missing, emission, transform }) in shapes {
+        let ObjMesh { mut mesh, report, materials } = load()?;
         reports.push(report);
         mesh.transform(&transform);
-        builder = builder.add_shape(name, mesh, material.map(|(name, _)| name), emission);
+        let names_some = !materials.of_triangles.is_empty() && emission.is_none();
+        builder = match (material, missing) {
+            (None, _) if names_some => faces.add(builder, &name, &mesh, &materials),
+            (None, Some(missing)) => return Err(missing),
+            (material, _) => {
+                builder.add_shape(name, mesh, material.map(|(name, _)| name), emission)
+            }
+        };
     }
-    Ok((builder.build().map_err(fault)?, view, settings, reports))
+    let notes = faces.notes;
+    Ok((builder.build().map_err(fault)?, view, settings, reports, notes))
 }

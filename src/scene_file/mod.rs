@@ -8,6 +8,7 @@
 mod assemble;
 mod document;
 mod error;
+mod faces;
 mod identity;
 mod overrides;
 mod sections;
@@ -69,6 +70,8 @@ pub struct LoadReport {
     pub seconds: f64,
     /// Warnings about each mesh, in the order of [`Scene::shapes`].
     pub meshes: Vec<ObjReport>,
+    /// What was left out of MTL files, with file and line.
+    pub notes: Vec<String>,
 }
 
 /// Reads the scene file at `path` with `overrides`. See [`parse_scene`].
@@ -188,9 +191,9 @@ fn parse_for(
     let document = source.parse()?;
     let description = source.place(assemble::describe(&document))?;
     let materials = description.materials.clone();
-    let (scene, view, settings, meshes) =
+    let (scene, view, settings, meshes, notes) =
         source.place(assemble::build(description, &document, instruction_set))?;
     let seconds = start.seconds() - scene.build_seconds();
-    let report = LoadReport { seconds, meshes };
+    let report = LoadReport { seconds, meshes, notes };
     Ok(LoadedScene { scene, view, settings, report, materials, document })
 }

@@ -102,6 +102,29 @@ impl TriangleMesh {
             .unwrap_or_default()
     }
 
+    /// The mesh of some of the triangles, with the vertices that they have, in the order of their first use.
+    ///
+    /// # Panics
+    /// If there is no such triangle.
+    pub fn part(&self, triangles: &[u32]) -> Self {
+        let mut new_index = vec![u32::MAX; self.positions.len()];
+        let mut part = Self::default();
+        for &triangle in triangles {
+            let corners = self.indices[triangle as usize].map(|old| {
+                let index = &mut new_index[old as usize];
+                if *index == u32::MAX {
+                    *index = part.positions.len() as u32;
+                    part.positions.push(self.positions[old as usize]);
+                    part.normals.extend(self.normals.get(old as usize));
+                    part.uvs.extend(self.uvs.get(old as usize));
+                }
+                *index
+            });
+            part.indices.push(corners);
+        }
+        part
+    }
+
     /// Transforms positions and normals. A transformation that mirrors also reverses the order of
     /// each triangle's corners, so that the outside stays outside.
     pub fn transform(&mut self, transform: &Affine3A) {

@@ -39,7 +39,13 @@ pub fn read_obj(path: &Path) -> Result<ObjMesh, ObjError> {
         _ => ObjError::Unreadable { name: name.clone(), source },
     };
     let file = file::open(path).map_err(unreadable)?;
-    parse_obj(&name, BufReader::with_capacity(1 << 17, file))
+    let mut read = parse_obj(&name, BufReader::with_capacity(1 << 17, file))?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    for library in &mut read.materials.libraries {
+        // Names have either slash.
+        *library = folder.join(library.replace('\\', "/")).to_string_lossy().into_owned();
+    }
+    Ok(read)
 }
 
 /// Reads OBJ text as one mesh. `name` is the name of the file in messages.

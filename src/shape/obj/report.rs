@@ -22,7 +22,7 @@ pub struct ObjMaterials {
     pub names: Vec<String>,
     /// For each triangle, the index of its name, or [`ObjMaterials::NONE`] for faces above the first `usemtl`. Empty if no face follows one.
     pub of_triangles: Vec<u32>,
-    /// The file names of `mtllib` lines, in the order of the file.
+    /// The file names of `mtllib` lines, in the order of the file; [`read_obj`](super::read_obj) puts the folder of the OBJ file in front.
     pub libraries: Vec<String>,
 }
 
