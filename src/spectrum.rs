@@ -198,6 +198,16 @@ impl<F: Float> Bands<F> {
     }
 }
 
+impl<F: Float> Add for Bands<F> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        let ([r, g, b], [or, og, ob]) = (self.0, other.0);
+        Self([r + or, g + og, b + ob])
+    }
+}
+
 impl<F: Float> Mul for Bands<F> {
     type Output = Self;
 

@@ -1,14 +1,12 @@
 //! [`BsdfBlock`]: the lobes at a block of hits.
 
-use std::marker::PhantomData;
-
 use arrayvec::ArrayVec;
 use bytemuck::Zeroable;
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 
 use super::bsdf::sides;
-use super::lobe::{MOST_NUMBERS, Model, of_model};
-use super::{Bsdf, BxdfFlags, Lobe, WideBxdf};
+use super::wide_lobe::{MOST_NUMBERS, Model, WideLobe, of_model};
+use super::{Bsdf, BxdfFlags, LambertianReflection, WideBxdf};
 use crate::geometry::{Axes, Xyz};
 use crate::interaction::{HitBlock, Hits, SurfaceInteraction};
 use crate::simd::{Block, BlockKernel, LaneMask, ROW, Row, Rows, groups, lanes_within};
@@ -16,11 +14,11 @@ use crate::spectrum::Bands;
 
 /// The lobes at a block of hits: what a [`Bsdf`] is for one.
 ///
-/// Where all hits have one lobe of the same model of this crate, as they do on most materials, the lobes are kept as rows of
-/// numbers and evaluated several at a time. Otherwise a [`Bsdf`] is kept for each hit. Both give the same bits.
+/// Where all hits have one lobe of the same model of this crate, or a coat and its base, as they do on most materials, the lobes are kept as
+/// rows of numbers and evaluated several at a time. Otherwise a [`Bsdf`] is kept for each hit. Both give the same bits.
 pub struct BsdfBlock<'a> {
     /// The model of all lobes; `None` if `each` has what there is.
-    model: Option<Model>,
+    model: Option<Model<'a>>,
     numbers: [Row; MOST_NUMBERS],
     each: ArrayVec<Bsdf<'a>, ROW>,
     len: usize,
@@ -72,6 +70,7 @@ impl<'a> BsdfBlock<'a> {
         assert_eq!(self.len, 0, "a material fills a block of lobes once");
         self.len = hits.len();
         let mut normals = Rows::splat(0.0);
+        let mut has_black = false;
         let mut lobe_at = |i: usize| {
             let bsdf = bsdf_at(i, &mut hits.get(i));
             normals.set(i, bsdf.frame().n.to_array());
@@ -79,7 +78,14 @@ impl<'a> BsdfBlock<'a> {
         };
         for i in 0..self.len {
             let bsdf = lobe_at(i);
-            if !self.set_only_lobe(i, hits.ng(i), &bsdf) {
+            let is_black = bsdf.lobes().len() == 0;
+            has_black |= is_black;
+            let is_wide = bsdf.is_plain(hits.ng(i))
+                && match WideLobe::of(&bsdf) {
+                    Some(lobe) => (!has_black || lobe.model.has_black()) && self.set(i, lobe),
+                    None => is_black && self.set_black(i),
+                };
+            if !is_wide {
                 self.model = None;
                 self.each.extend((0..i).map(&mut lobe_at));
                 self.each.push(bsdf);
@@ -89,66 +95,62 @@ impl<'a> BsdfBlock<'a> {
         }
         if self.each.is_empty() {
             // If all hits are black, any model will do.
-            self.model.get_or_insert(Model::LambertianReflection);
+            self.model.get_or_insert(WideLobe::from(LambertianReflection::BLACK).model);
         }
         hits.shading_n = normals;
     }
 
-    /// Replaces the lobes by one for each hit, of the same model, in the shading frames of the hits.
+    /// Replaces the lobes by one for each hit, of the same model, in the shading frames of the hits. False if they are not alike: then there are
+    /// none.
     #[inline]
-    pub(crate) fn fill_alike<M, const N: usize>(
-        &mut self,
-        hits: &HitBlock,
-        lobe_at: impl Fn(usize) -> M,
-    ) where
-        M: WideBxdf<N> + Into<Lobe<'a>>,
+    pub(crate) fn fill_alike<L>(&mut self, hits: &HitBlock, lobe_at: impl Fn(usize) -> L) -> bool
+    where
+        L: TryInto<WideLobe<'a>>,
     {
         self.clear();
-        self.len = hits.len();
-        for i in 0..self.len {
-            if let Some((model, numbers)) = lobe_at(i).into().numbers() {
-                self.model = Some(model);
-                self.set(i, numbers);
+        for i in 0..hits.len() {
+            let Ok(lobe) = lobe_at(i).try_into() else { return false };
+            if !self.set(i, lobe) {
+                self.model = None;
+                return false;
             }
         }
+        self.len = hits.len();
+        true
     }
 
     /// Replaces the lobes by the same one for each hit, in the shading frames of the hits.
     #[inline]
-    pub(crate) fn fill_constant<M, const N: usize>(&mut self, hits: &HitBlock, lobe: M)
-    where
-        M: WideBxdf<N> + Into<Lobe<'a>>,
-    {
+    pub(crate) fn fill_constant(&mut self, hits: &HitBlock, lobe: impl Into<WideLobe<'a>>) {
         self.clear();
         self.len = hits.len();
-        if let Some((model, numbers)) = lobe.into().numbers() {
-            self.model = Some(model);
-            for (row, number) in self.numbers.iter_mut().zip(numbers) {
-                *row = Row::splat(number);
-            }
+        let WideLobe { model, numbers } = lobe.into();
+        self.model = Some(model);
+        for (row, number) in self.numbers.iter_mut().zip(numbers) {
+            *row = Row::splat(number);
         }
     }
 
-    /// Keeps the only lobe at a hit as numbers, if that is possible. No lobe is one of zeros, which is black in any model.
+    /// Keeps the lobe at a hit. False if it is of another model than those before.
     #[inline(always)]
-    fn set_only_lobe(&mut self, i: usize, ng: Vec3, bsdf: &Bsdf<'a>) -> bool {
-        let Some(lobe) = bsdf.only_lobe(ng) else { return false };
-        let Some(lobe) = lobe else {
-            self.set(i, [0.0; MOST_NUMBERS]);
-            return true;
-        };
-        match lobe.numbers() {
-            Some((model, numbers)) if self.model.is_none_or(|known| known == model) => {
-                self.model = Some(model);
-                self.set(i, numbers);
-                true
-            }
-            _ => false,
+    fn set(&mut self, i: usize, WideLobe { model, numbers }: WideLobe<'a>) -> bool {
+        if self.model.is_some_and(|known| known != model) {
+            return false;
         }
+        self.model = Some(model);
+        self.set_numbers(i, numbers);
+        true
+    }
+
+    /// Keeps a black lobe at a hit, if lobes before have a model with one.
+    #[inline(always)]
+    fn set_black(&mut self, i: usize) -> bool {
+        self.set_numbers(i, [0.0; MOST_NUMBERS]);
+        self.model.is_none_or(Model::has_black)
     }
 
     #[inline(always)]
-    fn set(&mut self, i: usize, numbers: [f32; MOST_NUMBERS]) {
+    fn set_numbers(&mut self, i: usize, numbers: [f32; MOST_NUMBERS]) {
         for (row, number) in self.numbers.iter_mut().zip(numbers) {
             row.set(i, number);
         }
@@ -186,8 +188,10 @@ impl<'a> BsdfBlock<'a> {
         };
         let set = hits.instruction_set;
         let Self { numbers, rejected, .. } = self;
-        of_model!(model, M => {
-            *rejected += set.run_block(Evaluate::<M, _> { hits, numbers, wi, asked, needs_pdf, f, pdf, model: PhantomData });
+        of_model!(model, model => {
+            let numbers = first(numbers);
+            *rejected +=
+                set.run_block(Evaluate { model, hits, numbers, wi, asked, needs_pdf, f, pdf });
         });
     }
 
@@ -220,8 +224,13 @@ impl<'a> BsdfBlock<'a> {
         let set = hits.instruction_set;
         let Self { numbers, rejected, .. } = self;
         (samples.is_specular, samples.eta) = (Row::splat(0.0), Row::splat(1.0));
-        of_model!(model, M => {
-            *rejected += set.run_block(Sample::<M, _> { hits, numbers, u, samples, model: PhantomData });
+        let mut of_each = Row::splat(f32::NAN);
+        if of_model!(model, model => model.uses_uc()) {
+            uc(of_each.first_mut(self.len));
+        }
+        of_model!(model, model => {
+            let (numbers, uc) = (first(numbers), &of_each);
+            *rejected += set.run_block(Sample { model, hits, numbers, uc, u, samples });
         });
     }
 
@@ -232,9 +241,16 @@ impl<'a> BsdfBlock<'a> {
     }
 }
 
+/// Those rows that a model has.
+#[inline(always)]
+fn first<const N: usize>(numbers: &[Row; MOST_NUMBERS]) -> &[Row; N] {
+    const { assert!(N <= MOST_NUMBERS) };
+    numbers.first_chunk().expect("a model has at most as many numbers")
+}
+
 /// The lobes in the lanes from `at` on.
 #[inline(always)]
-fn load<F: Block, const N: usize>(numbers: &[Row; MOST_NUMBERS], at: usize) -> [F; N] {
+fn load<F: Block, const N: usize>(numbers: &[Row; N], at: usize) -> [F; N] {
     let mut lobes = [F::splat(0.0); N];
     for (lobe, row) in lobes.iter_mut().zip(numbers) {
         *lobe = row.load(at);
@@ -243,14 +259,14 @@ fn load<F: Block, const N: usize>(numbers: &[Row; MOST_NUMBERS], at: usize) -> [
 }
 
 struct Evaluate<'a, M, const N: usize> {
+    model: M,
     hits: &'a HitBlock<'a>,
-    numbers: &'a [Row; MOST_NUMBERS],
+    numbers: &'a [Row; N],
     wi: &'a Rows<3>,
     asked: &'a Row,
     needs_pdf: &'a Row,
     f: &'a mut Rows<3>,
     pdf: &'a mut Row,
-    model: PhantomData<[M; N]>,
 }
 
 impl<M: WideBxdf<N>, const N: usize> BlockKernel for Evaluate<'_, M, N> {
@@ -258,7 +274,8 @@ impl<M: WideBxdf<N>, const N: usize> BlockKernel for Evaluate<'_, M, N> {
 
     #[inline(always)]
     fn run<F: Block>(self) -> u32 {
-        let Self { hits, numbers, wi: all_wi, asked, needs_pdf, f: all_f, pdf: all_pdf, .. } = self;
+        let Self { model, hits, numbers, wi: all_wi, asked, needs_pdf, f: all_f, pdf: all_pdf } =
+            self;
         let (len, zero) = (hits.len(), F::splat(0.0));
         let mut rejected = 0;
         for at in groups::<F>(len) {
@@ -269,7 +286,7 @@ impl<M: WideBxdf<N>, const N: usize> BlockKernel for Evaluate<'_, M, N> {
             let lobes = load::<F, N>(numbers, at);
             let exists = !local[0].z.eq(zero) & !asked.load::<F>(at).eq(zero);
             let needed = [exists, exists & needs_pdf.load::<F>(at).gt(zero)];
-            let values = (M::f(lobes, local[0], local[1]), M::pdf(lobes, local[0], local[1]));
+            let values = model.f_and_pdf(lobes, local[0], local[1]);
             let (f, pdf, invalid) = guarded(values, &of_hits, wi, local, needed);
             rejected += count(invalid, lanes_within::<F>(at, len));
             all_f.store(at, f.0);
@@ -280,11 +297,12 @@ impl<M: WideBxdf<N>, const N: usize> BlockKernel for Evaluate<'_, M, N> {
 }
 
 struct Sample<'a, M, const N: usize> {
+    model: M,
     hits: &'a HitBlock<'a>,
-    numbers: &'a [Row; MOST_NUMBERS],
+    numbers: &'a [Row; N],
+    uc: &'a Row,
     u: &'a [Vec2; ROW],
     samples: &'a mut BsdfSamples,
-    model: PhantomData<[M; N]>,
 }
 
 impl<M: WideBxdf<N>, const N: usize> BlockKernel for Sample<'_, M, N> {
@@ -292,7 +310,7 @@ impl<M: WideBxdf<N>, const N: usize> BlockKernel for Sample<'_, M, N> {
 
     #[inline(always)]
     fn run<F: Block>(self) -> u32 {
-        let Self { hits, numbers, u, samples, .. } = self;
+        let Self { model, hits, numbers, uc, u, samples } = self;
         let BsdfSamples { f: all_f, wi: all_wi, pdf: all_pdf, .. } = samples;
         let (len, zero) = (hits.len(), F::splat(0.0));
         let mut rejected = 0;
@@ -301,12 +319,12 @@ impl<M: WideBxdf<N>, const N: usize> BlockKernel for Sample<'_, M, N> {
             let axes = Axes::from_normal(of_hits.shading_n);
             let local_wo = axes.to_local(of_hits.wo);
             let lobes = load::<F, N>(numbers, at);
-            let local_wi = M::sample(lobes, local_wo, F::load_pairs(&u[at..]));
+            let (uc, u) = (uc.load(at), F::load_pairs(&u[at..]));
+            let local_wi = model.sample(lobes, local_wo, uc, u);
             let (local, wi) = ([local_wo, local_wi], axes.to_world(local_wi));
-            let pdf = M::pdf(lobes, local_wo, local_wi);
+            let (f, pdf) = model.f_and_pdf(lobes, local_wo, local_wi);
             let exists = !local_wo.z.eq(zero) & pdf.gt(zero);
-            let values = (M::f(lobes, local_wo, local_wi), pdf);
-            let (f, pdf, invalid) = guarded(values, &of_hits, wi, local, [exists; 2]);
+            let (f, pdf, invalid) = guarded((f, pdf), &of_hits, wi, local, [exists; 2]);
             rejected += count(invalid, lanes_within::<F>(at, len));
             all_f.store(at, f.0);
             all_wi.store(at, wi.into());

@@ -339,18 +339,10 @@ impl<'a> Bsdf<'a> {
         }
     }
 
-    /// The only lobe, if there is one, where the tangents are arbitrary and the geometric normal is `ng`: enough to evaluate
-    /// it with others at a time. `None` if there is more to know.
+    /// Whether the tangents are arbitrary and the geometric normal is `ng`: then lobes are all that there is to know.
     #[inline(always)]
-    pub(super) fn only_lobe(&self, ng: Vec3) -> Option<Option<&Lobe<'a>>> {
-        let frame = &self.frame;
-        let is_simple =
-            *frame == Frame::from_normal(frame.n) && self.ng == ng && self.rejected() == 0;
-        match &self.terms[..] {
-            [] if is_simple => Some(None),
-            [term] if is_simple && term.scale == Spectrum::WHITE => Some(Some(&term.lobe)),
-            _ => None,
-        }
+    pub(super) fn is_plain(&self, ng: Vec3) -> bool {
+        self.frame == Frame::from_normal(self.frame.n) && self.ng == ng && self.rejected() == 0
     }
 
     /// Selection probability of each lobe that matches `flags`, for a local direction.

@@ -5,8 +5,10 @@ use std::f32::consts::FRAC_1_PI;
 use glam::Vec3;
 
 use super::microfacet::{Ggx, Losses, above};
-use super::{BxDF, BxdfFlags};
-use crate::spectrum::Spectrum;
+use super::{BxDF, BxdfFlags, WideBxdf};
+use crate::geometry::Xyz;
+use crate::simd::Block;
+use crate::spectrum::{Bands, Spectrum};
 
 /// Diffuse reflection by a base below a dielectric coat, smooth or rough: light enters the coat, is reflected by the base, and by the coat
 /// from within, until it leaves. What the coat reflects is a lobe of its own, [`MicrofacetReflection`](super::MicrofacetReflection)
@@ -41,10 +43,43 @@ impl<'a> CoatedDiffuse<'a> {
         Self { factor, ggx, losses }
     }
 
-    /// The fraction of light from a direction that enters the coat.
-    #[inline]
-    fn entering(&self, w: Vec3) -> f32 {
-        self.losses.at(&self.ggx, w)
+    /// The numbers of the lobe.
+    #[inline(always)]
+    pub(super) fn numbers(&self) -> [f32; 5] {
+        let ([r, g, b], [ax, ay]) = (self.factor, self.ggx.alpha());
+        [r, g, b, ax, ay]
+    }
+
+    /// What it has in common with other lobes of its material.
+    #[inline(always)]
+    pub(super) fn model(&self) -> BaseModel<'a> {
+        BaseModel { losses: self.losses }
+    }
+}
+
+/// [`CoatedDiffuse`] of any number, by surfaces of one material.
+#[derive(Clone, Copy)]
+pub struct BaseModel<'a> {
+    pub losses: &'a Losses,
+}
+
+impl BaseModel<'_> {
+    /// Estimated albedo.
+    #[inline(always)]
+    pub fn albedo<F: Block>(self, [r, g, b, ax, ay]: [F; 5], wo: Xyz<F>) -> F {
+        let (ggx, [wo, _]) = (Ggx::of([ax, ay]), above([wo, wo]));
+        let mean = self.losses.mean(&ggx) * F::splat(std::f32::consts::PI);
+        self.losses.at(&ggx, wo) * mean * Bands([r, g, b]).max_component()
+    }
+}
+
+impl WideBxdf<5> for BaseModel<'_> {
+    #[inline(always)]
+    fn f<F: Block>(self, [r, g, b, ax, ay]: [F; 5], wo: Xyz<F>, wi: Xyz<F>) -> Bands<F> {
+        let (ggx, [wo, wi]) = (Ggx::of([ax, ay]), above([wo, wi]));
+        // What enters the coat from each direction.
+        let entering = self.losses.at(&ggx, wo) * self.losses.at(&ggx, wi);
+        (Bands([r, g, b]) * entering).only(wi.z.gt(F::splat(0.0)))
     }
 }
 
@@ -56,11 +91,7 @@ impl BxDF for CoatedDiffuse<'_> {
 
     #[inline]
     fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        let [wo, wi] = above(wo, wi);
-        if wi.z <= 0.0 {
-            return Spectrum::BLACK;
-        }
-        Spectrum::from(self.factor) * (self.entering(wo) * self.entering(wi))
+        self.model().f(self.numbers(), wo.into(), wi.into()).into()
     }
 
     #[inline]
@@ -70,8 +101,6 @@ impl BxDF for CoatedDiffuse<'_> {
 
     #[inline]
     fn albedo_estimate(&self, wo: Vec3) -> f32 {
-        let [wo, _] = above(wo, wo);
-        let mean = self.losses.mean(&self.ggx) * std::f32::consts::PI;
-        self.entering(wo) * mean * Spectrum::from(self.factor).max_component()
+        self.model().albedo(self.numbers(), wo.into())
     }
 }

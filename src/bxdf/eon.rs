@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3};
 use super::{BxDF, BxdfFlags, BxdfSample, WideBxdf};
 use crate::geometry::Xyz;
 use crate::geometry::trig::same_side;
-use crate::simd::Float;
+use crate::simd::{Block, Float};
 use crate::spectrum::{Bands, Spectrum};
 
 /// Rough diffuse reflection whose albedo is known in closed form, so that what light loses by being reflected once between the
@@ -164,15 +164,22 @@ impl<F: Float> Clipped<F> {
     }
 }
 
-impl WideBxdf<8> for EnergyPreservingOrenNayar {
+impl EnergyPreservingOrenNayar {
+    /// The numbers of the lobe.
     #[inline(always)]
-    fn numbers(&self) -> [f32; 8] {
+    pub(super) fn numbers(&self) -> [f32; 8] {
         let Self { once: [r, g, b], often: [more_r, more_g, more_b], .. } = *self;
         [r, g, b, more_r, more_g, more_b, self.roughness, self.spread]
     }
+}
 
+/// [`EnergyPreservingOrenNayar`] of any number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EonModel;
+
+impl WideBxdf<8> for EonModel {
     #[inline(always)]
-    fn f<F: Float>(lobe: [F; 8], wo: Xyz<F>, wi: Xyz<F>) -> Bands<F> {
+    fn f<F: Block>(self, lobe: [F; 8], wo: Xyz<F>, wi: Xyz<F>) -> Bands<F> {
         let [r, g, b, more_r, more_g, more_b, roughness, _] = lobe;
         let (zero, one) = (F::splat(0.0), F::splat(1.0));
         // wi · wo - cos θi cos θo.
@@ -186,7 +193,7 @@ impl WideBxdf<8> for EnergyPreservingOrenNayar {
     }
 
     #[inline(always)]
-    fn pdf<F: Float>(lobe: [F; 8], wo: Xyz<F>, wi: Xyz<F>) -> F {
+    fn pdf<F: Block>(self, lobe: [F; 8], wo: Xyz<F>, wi: Xyz<F>) -> F {
         let [.., roughness, spread] = lobe;
         let above = Xyz { z: wi.z.abs(), ..wi };
         let pdf = Clipped::new(roughness, spread, wo).pdf(above);
@@ -194,7 +201,7 @@ impl WideBxdf<8> for EnergyPreservingOrenNayar {
     }
 
     #[inline(always)]
-    fn sample<F: Float>(lobe: [F; 8], wo: Xyz<F>, u: [F; 2]) -> Xyz<F> {
+    fn sample<F: Block>(self, lobe: [F; 8], wo: Xyz<F>, _uc: F, u: [F; 2]) -> Xyz<F> {
         let [.., roughness, spread] = lobe;
         let wi = Clipped::new(roughness, spread, wo).sample(u);
         Xyz { z: F::select(wo.z.lt(F::splat(0.0)), -wi.z, wi.z), ..wi }
@@ -209,19 +216,19 @@ impl BxDF for EnergyPreservingOrenNayar {
 
     #[inline]
     fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        <Self as WideBxdf<8>>::f(self.numbers(), wo.into(), wi.into()).into()
+        EonModel.f(self.numbers(), wo.into(), wi.into()).into()
     }
 
     #[inline]
     fn sample_f(&self, wo: Vec3, _uc: f32, u: Vec2) -> Option<BxdfSample> {
-        let wi = <Self as WideBxdf<8>>::sample(self.numbers(), wo.into(), u.to_array()).into();
+        let wi = EonModel.sample(self.numbers(), wo.into(), f32::NAN, u.to_array()).into();
         let pdf = self.pdf(wo, wi);
         (pdf > 0.0).then(|| BxdfSample::diffuse(self.f(wo, wi), wi, pdf))
     }
 
     #[inline]
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        <Self as WideBxdf<8>>::pdf(self.numbers(), wo.into(), wi.into())
+        EonModel.pdf(self.numbers(), wo.into(), wi.into())
     }
 
     #[inline]

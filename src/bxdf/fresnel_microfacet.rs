@@ -5,7 +5,7 @@ use std::f32::consts::FRAC_1_PI;
 use glam::{Vec2, Vec3};
 
 use super::fresnel::boundary;
-use super::microfacet::{BoundaryLosses, Ggx, above, flipped, multiple};
+use super::microfacet::{BoundaryLosses, Ggx, Spread, above, flipped};
 use super::specular_transmission::relative;
 use super::{BxDF, BxdfFlags, BxdfSample, FresnelSpecular};
 use crate::spectrum::Spectrum;
@@ -64,9 +64,9 @@ impl<'a> FresnelMicrofacet<'a> {
     #[inline]
     fn view(&self, wo: Vec3) -> Option<View> {
         let (ggx, is_below) = (self.ggx.rough()?, wo.z < 0.0);
-        let [up, _] = above(wo, wo);
+        let [up, _] = above([wo.into(), wo.into()]);
         let lost = self.losses.side(is_below).at(&ggx, up);
-        Some(View { wo: up, is_below, eta: relative(self.losses.eta(), wo), lost })
+        Some(View { wo: up.into(), is_below, eta: relative(self.losses.eta(), wo), lost })
     }
 
     /// Value and density, where `wi` is mirrored with `wo`.
@@ -124,9 +124,9 @@ impl<'a> FresnelMicrofacet<'a> {
         let wi = Vec3::new(wi.x, wi.y, wi.z.abs());
         let (share, scale) = if reflects { (1.0 - crossing, 1.0) } else { (crossing, eta * eta) };
         let (mean, of_far) =
-            (self.means[usize::from(far)], self.losses.side(far).at(&self.ggx, wi));
+            (self.means[usize::from(far)], self.losses.side(far).at(&self.ggx, wi.into()));
         let f = if mean > 0.0 { share * lost * of_far / mean * FRAC_1_PI / scale } else { 0.0 };
-        [f, share * multiple::pdf(self.ggx.mean_alpha(), wi.z)]
+        [f, share * Spread::new(self.ggx.mean_alpha()).pdf(wi.z)]
     }
 
     /// The surface as a specular one.
@@ -141,9 +141,8 @@ impl<'a> FresnelMicrofacet<'a> {
         let View { wo, is_below, eta, lost } = view;
         if uc < lost {
             let (uc, crossing) = (uc / lost, self.crossing[usize::from(is_below)]);
-            let alpha = self.ggx.mean_alpha();
-            let wi = multiple::sample(alpha, u);
-            return (wi.z > 0.0).then(|| if uc < crossing { flipped(wi) } else { wi });
+            let wi = Spread::new(self.ggx.mean_alpha()).sample(u.to_array());
+            return (wi.z > 0.0).then(|| flipped(uc < crossing, wi).into());
         }
         let uc = (uc - lost) / (1.0 - lost);
         let m: Vec3 = self.ggx.sample_visible(wo.into(), u.to_array()).into();
@@ -177,7 +176,7 @@ impl BxDF for FresnelMicrofacet<'_> {
         let Some(view) = self.view(wo) else { return self.smooth().sample_f(wo, uc, u) };
         let up = self.direction(view, uc, u)?;
         let (f, pdf) = self.value_and_density(view, up);
-        let wi = if view.is_below { flipped(up) } else { up };
+        let wi = flipped(view.is_below, up.into()).into();
         let event = BxdfSample::glossy(f, wi, pdf);
         (pdf > 0.0).then_some(if up.z > 0.0 { event } else { event.transmitted(view.eta) })
     }
@@ -191,8 +190,8 @@ impl BxDF for FresnelMicrofacet<'_> {
     fn f_and_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
         match self.view(wo) {
             Some(view) if wi.z != 0.0 => {
-                let [_, wi] = above(wo, wi);
-                self.value_and_density(view, wi)
+                let [_, wi] = above([wo.into(), wi.into()]);
+                self.value_and_density(view, wi.into())
             }
             _ => (Spectrum::BLACK, 0.0),
         }

@@ -6,7 +6,7 @@ use glam::{Vec2, Vec3};
 
 use super::{BxDF, BxdfFlags, WideBxdf};
 use crate::geometry::Xyz;
-use crate::simd::Float;
+use crate::simd::Block;
 use crate::spectrum::{Bands, Spectrum};
 
 /// Ideal diffuse reflection: the same radiance in all directions (PBRT 3rd edition, section 8.3).
@@ -21,6 +21,9 @@ pub struct LambertianReflection {
 }
 
 impl LambertianReflection {
+    /// Reflects nothing.
+    pub(super) const BLACK: Self = Self::new(Spectrum::BLACK);
+
     /// Reflects the fraction `r` of incident light, in `[0, 1]` per band.
     #[inline]
     pub const fn new(r: Spectrum) -> Self {
@@ -28,14 +31,21 @@ impl LambertianReflection {
     }
 }
 
-impl WideBxdf<3> for LambertianReflection {
+impl LambertianReflection {
+    /// The numbers of the lobe.
     #[inline(always)]
-    fn numbers(&self) -> [f32; 3] {
+    pub(super) fn numbers(&self) -> [f32; 3] {
         self.r
     }
+}
 
+/// [`LambertianReflection`] of any number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LambertianModel;
+
+impl WideBxdf<3> for LambertianModel {
     #[inline(always)]
-    fn f<F: Float>(r: [F; 3], _wo: Xyz<F>, _wi: Xyz<F>) -> Bands<F> {
+    fn f<F: Block>(self, r: [F; 3], _wo: Xyz<F>, _wi: Xyz<F>) -> Bands<F> {
         Bands(r) * F::splat(FRAC_1_PI)
     }
 }
@@ -48,7 +58,7 @@ impl BxDF for LambertianReflection {
 
     #[inline]
     fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        <Self as WideBxdf<3>>::f(self.numbers(), wo.into(), wi.into()).into()
+        LambertianModel.f(self.numbers(), wo.into(), wi.into()).into()
     }
 
     #[inline]

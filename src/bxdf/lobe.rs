@@ -2,53 +2,15 @@
 
 use glam::{Vec2, Vec3};
 
-use super::{BxDF, BxdfFlags, BxdfSample, WideBxdf};
+use super::{BxDF, BxdfFlags, BxdfSample};
 use crate::spectrum::Spectrum;
 
 /// The most lobes that one [`Bsdf`](super::Bsdf) holds (PBRT's `MaxBxDFs`).
 pub const MAX_LOBES: usize = 8;
 
-/// Defines [`Lobe`] from the lists of this crate's models: those that are evaluated for several hits at a time, others, and those that
-/// borrow from their material.
+/// Defines [`Lobe`] from the lists of this crate's models: others, and those that borrow from their material.
 macro_rules! lobes {
-    ([$($wide:ident),*], [$($single:ident),*], [$($borrowing:ident),*]) => {
-        /// A model of this crate that is evaluated for several hits at a time.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub(super) enum Model {
-            $($wide,)*
-        }
-
-        /// Runs `$call` with `$type` as the type of a model.
-        macro_rules! of_model {
-            ($which:expr, $type:ident => $call:expr) => {
-                match $which {
-                    $($crate::bxdf::lobe::Model::$wide => {
-                        type $type = $crate::bxdf::$wide;
-                        $call
-                    })*
-                }
-            };
-        }
-        pub(super) use of_model;
-
-        impl Lobe<'_> {
-            /// The model, if it is evaluated for several hits at a time, and the numbers of the lobe, followed by zeros.
-            #[inline(always)]
-            pub(super) fn numbers(&self) -> Option<(Model, [f32; MOST_NUMBERS])> {
-                match self {
-                    $(Self::$wide(lobe) => Some((Model::$wide, padded(lobe.numbers()))),)*
-                    _ => None,
-                }
-            }
-        }
-
-        lobe_of!([$($wide,)* $($single,)*] [$($borrowing,)*]);
-    };
-}
-
-/// Defines [`Lobe`] from the list of this crate's models.
-macro_rules! lobe_of {
-    ([$($model:ident,)*] [$($borrowing:ident,)*]) => {
+    ([$($model:ident),*], [$($borrowing:ident),*]) => {
         /// One lobe: a model of this crate, stored in place, or a reference to any other [`BxDF`].
         ///
         /// Models of this crate are dispatched by an inlined branch, others by a virtual call.
@@ -111,8 +73,10 @@ macro_rules! lobe_of {
 }
 
 lobes!(
-    [LambertianReflection, OrenNayar, EnergyPreservingOrenNayar],
     [
+        LambertianReflection,
+        OrenNayar,
+        EnergyPreservingOrenNayar,
         LambertianTransmission,
         SpecularReflection,
         SpecularTransmission,
@@ -121,17 +85,6 @@ lobes!(
     ],
     [MicrofacetReflection, FresnelMicrofacet, CoatedDiffuse, RetroReflection]
 );
-
-/// Most numbers of a lobe.
-pub(super) const MOST_NUMBERS: usize = 8;
-
-#[inline(always)]
-fn padded<const N: usize>(numbers: [f32; N]) -> [f32; MOST_NUMBERS] {
-    const { assert!(N <= MOST_NUMBERS) };
-    let mut padded = [0.0; MOST_NUMBERS];
-    padded[..N].copy_from_slice(&numbers);
-    padded
-}
 
 // A Bsdf has room for several lobes, and moves all of it.
 const _: () = assert!(size_of::<Lobe>() <= 64);

@@ -3,9 +3,11 @@
 use glam::{Vec2, Vec3};
 
 use super::fresnel::Fresnel;
-use super::microfacet::{Ggx, Losses, above, flipped, multiple};
-use super::{BxDF, BxdfFlags, BxdfSample, SpecularReflection, specular_reflection};
-use crate::spectrum::Spectrum;
+use super::microfacet::{Ggx, Losses, Spread, above, flipped};
+use super::{BxDF, BxdfFlags, BxdfSample, SpecularReflection, WideBxdf, specular_reflection};
+use crate::geometry::Xyz;
+use crate::simd::{Block, Float};
+use crate::spectrum::{Bands, Spectrum};
 
 /// Reflection by the facets of a rough surface, which have the distribution [`Ggx`] and reflect light by Fresnel's equations.
 ///
@@ -27,13 +29,29 @@ pub struct MicrofacetReflection<'a> {
     losses: Option<&'a Losses>,
 }
 
-/// Two directions above a rough surface.
-struct Pair {
-    ggx: Ggx,
-    wo: Vec3,
-    wi: Vec3,
+/// [`MicrofacetReflection`] of any number, by rough surfaces of one material.
+#[derive(Clone, Copy)]
+pub struct FacetsModel<'a> {
+    fresnel: Fresnel,
+    losses: Option<&'a Losses>,
+}
+
+impl PartialEq for FacetsModel<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        let [a, b] = [self, other].map(|facets| facets.losses.map(std::ptr::from_ref));
+        self.fresnel == other.fresnel && a == b
+    }
+}
+
+/// Two directions, mirrored so that the first is above the surface.
+struct Pair<F: Float> {
+    ggx: Ggx<F>,
+    wo: Xyz<F>,
+    wi: Xyz<F>,
     /// What one facet does not return of light from `wo`.
-    lost: f32,
+    lost: F,
+    /// Whether the second is above too.
+    is_reflected: F::Mask,
 }
 
 impl<'a> MicrofacetReflection<'a> {
@@ -60,48 +78,124 @@ impl<'a> MicrofacetReflection<'a> {
         Self { multiple, losses: Some(losses), ..self }
     }
 
-    /// What one facet does not return of light from a direction above.
+    /// What it has in common with other lobes of its material, where the surface is rough.
+    #[inline(always)]
+    pub(super) fn model(&self) -> FacetsModel<'a> {
+        FacetsModel { fresnel: self.fresnel, losses: self.losses }
+    }
+
+    /// Of rough dielectric facets without multiple scattering: the index of refraction.
+    #[inline(always)]
+    pub(super) fn eta(&self) -> Option<f32> {
+        match self.fresnel {
+            Fresnel::Dielectric { eta } if self.losses.is_none() && !self.is_smooth() => Some(eta),
+            _ => None,
+        }
+    }
+
+    /// The numbers of the lobe.
+    #[inline(always)]
+    pub(super) fn numbers(&self) -> [f32; 7] {
+        let (ggx, [r, g, b]) = (self.ggx, self.multiple);
+        let [ax, ay] = ggx.alpha();
+        let [alpha2, log] = match self.losses {
+            Some(_) => Spread::new(ggx.mean_alpha()).numbers,
+            None => [0.0; 2],
+        };
+        [ax, ay, r, g, b, alpha2, log]
+    }
+
+    /// Whether the surface is smooth to f32.
     #[inline]
-    fn lost(&self, ggx: &Ggx, w: Vec3) -> f32 {
-        self.losses.map_or(0.0, |losses| losses.at(ggx, w))
-    }
-
-    /// `None` if nothing is reflected.
-    #[inline(always)]
-    fn pair(&self, wo: Vec3, wi: Vec3) -> Option<Pair> {
-        let [wo, wi] = above(wo, wi);
-        let ggx = self.ggx.rough().filter(|_| wi.z > 0.0)?;
-        Some(Pair { ggx, wo, wi, lost: self.lost(&ggx, wo) })
-    }
-
-    #[inline(always)]
-    fn value(&self, &Pair { ggx, wo, wi, lost }: &Pair) -> Spectrum {
-        let sum = wo + wi;
-        // wo · m, from the length of the sum.
-        let cos = (0.5 * sum.length()).min(1.0);
-        let single =
-            0.5 * ggx.distribution(sum.into()) * ggx.twice_the_visibility(wo.into(), wi.into());
-        let single = self.fresnel.evaluate(cos) * single;
-        match self.losses {
-            Some(_) => single + Spectrum::from(self.multiple) * (lost * self.lost(&ggx, wi)),
-            None => single,
-        }
-    }
-
-    #[inline(always)]
-    fn density(&self, &Pair { ggx, wo, wi, lost }: &Pair) -> f32 {
-        let single = ggx.reflected_bounded(wo.into(), (wo + wi).into());
-        if lost > 0.0 {
-            (1.0 - lost) * single + lost * multiple::pdf(ggx.mean_alpha(), wi.z)
-        } else {
-            single
-        }
+    pub(super) fn is_smooth(&self) -> bool {
+        self.ggx.rough().is_none()
     }
 
     /// The surface as a specular one.
     #[inline]
     fn smooth(&self) -> SpecularReflection {
         SpecularReflection::new(Spectrum::WHITE, self.fresnel)
+    }
+}
+
+impl FacetsModel<'_> {
+    #[inline(always)]
+    fn pair<F: Block>(self, lobe: [F; 7], wo: Xyz<F>, wi: Xyz<F>) -> Pair<F> {
+        let [ax, ay, ..] = lobe;
+        let (ggx, [wo, wi]) = (Ggx::of([ax, ay]), above([wo, wi]));
+        Pair { ggx, wo, wi, lost: self.lost(&ggx, wo), is_reflected: wi.z.gt(F::splat(0.0)) }
+    }
+
+    /// What one facet does not return of light from a direction above.
+    #[inline(always)]
+    fn lost<F: Block>(self, ggx: &Ggx<F>, w: Xyz<F>) -> F {
+        match self.losses {
+            Some(losses) => losses.at(ggx, w),
+            None => F::splat(0.0),
+        }
+    }
+
+    #[inline(always)]
+    fn value<F: Block>(self, lobe: [F; 7], pair: &Pair<F>) -> Bands<F> {
+        let &Pair { ggx, wo, wi, lost, is_reflected } = pair;
+        let (half, sum) = (F::splat(0.5), wo + wi);
+        // wo · m, from the length of the sum.
+        let cos = (half * sum.length_squared().sqrt()).min(F::splat(1.0));
+        let single = half * ggx.distribution(sum) * ggx.twice_the_visibility(wo, wi);
+        let mut f = self.fresnel.above(cos) * single;
+        if let Some(losses) = self.losses {
+            let [_, _, r, g, b, ..] = lobe;
+            f = f + Bands([r, g, b]) * (lost * losses.at(&ggx, wi));
+        }
+        f.only(is_reflected)
+    }
+
+    #[inline(always)]
+    fn density<F: Block>(self, lobe: [F; 7], pair: &Pair<F>) -> F {
+        let &Pair { ggx, wo, wi, lost, is_reflected } = pair;
+        let mut pdf = ggx.reflected_bounded(wo, wo + wi);
+        if self.losses.is_some() {
+            let [.., alpha2, log] = lobe;
+            let multiple = Spread { numbers: [alpha2, log] }.pdf(wi.z);
+            pdf = (F::splat(1.0) - lost) * pdf + lost * multiple;
+        }
+        F::select(is_reflected, pdf, F::splat(0.0))
+    }
+}
+
+impl WideBxdf<7> for FacetsModel<'_> {
+    #[inline(always)]
+    fn uses_uc(self) -> bool {
+        self.losses.is_some()
+    }
+
+    #[inline(always)]
+    fn f<F: Block>(self, lobe: [F; 7], wo: Xyz<F>, wi: Xyz<F>) -> Bands<F> {
+        self.value(lobe, &self.pair(lobe, wo, wi))
+    }
+
+    #[inline(always)]
+    fn pdf<F: Block>(self, lobe: [F; 7], wo: Xyz<F>, wi: Xyz<F>) -> F {
+        self.density(lobe, &self.pair(lobe, wo, wi))
+    }
+
+    #[inline(always)]
+    fn f_and_pdf<F: Block>(self, lobe: [F; 7], wo: Xyz<F>, wi: Xyz<F>) -> (Bands<F>, F) {
+        let pair = self.pair(lobe, wo, wi);
+        (self.value(lobe, &pair), self.density(lobe, &pair))
+    }
+
+    #[inline(always)]
+    fn sample<F: Block>(self, lobe: [F; 7], wo: Xyz<F>, uc: F, u: [F; 2]) -> Xyz<F> {
+        let [ax, ay, .., alpha2, log] = lobe;
+        let (ggx, [up, _]) = (Ggx::of([ax, ay]), above([wo, wo]));
+        let m = ggx.sample_bounded(up, u);
+        let mut wi = m * (F::splat(2.0) * up.dot(m)) - up;
+        if self.losses.is_some() {
+            let multiple = Spread { numbers: [alpha2, log] }.sample(u);
+            wi = Xyz::select(uc.lt(self.lost(&ggx, up)), multiple, wi);
+        }
+        flipped(wo.z.lt(F::splat(0.0)), wi)
     }
 }
 
@@ -117,39 +211,39 @@ impl BxDF for MicrofacetReflection<'_> {
 
     #[inline]
     fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        let Some(pair) = self.pair(wo, wi) else { return Spectrum::BLACK };
-        self.value(&pair)
+        if self.is_smooth() {
+            return Spectrum::BLACK;
+        }
+        self.model().f(self.numbers(), wo.into(), wi.into()).into()
     }
 
     fn sample_f(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BxdfSample> {
-        let [up, _] = above(wo, wo);
-        let Some(ggx) = self.ggx.rough() else {
+        if self.is_smooth() {
+            let up = Vec3::new(wo.x, wo.y, wo.z.abs());
             let sample = self.smooth().sample_f(up, uc, u)?;
             return Some(BxdfSample { wi: specular_reflection::mirrored(wo), ..sample });
-        };
-        let lost = self.lost(&ggx, up);
-        let wi = if uc < lost {
-            multiple::sample(ggx.mean_alpha(), u)
-        } else {
-            let m: Vec3 = ggx.sample_bounded(up.into(), u.to_array()).into();
-            2.0 * up.dot(m) * m - up
-        };
-        let pair = Pair { ggx, wo: up, wi, lost };
-        let pdf = if wi.z > 0.0 { self.density(&pair) } else { 0.0 };
-        let wi = if wo.z < 0.0 { flipped(wi) } else { wi };
-        (pdf > 0.0).then(|| BxdfSample::glossy(self.value(&pair), wi, pdf))
+        }
+        let (model, lobe, wo) = (self.model(), self.numbers(), wo.into());
+        let wi = model.sample(lobe, wo, uc, u.to_array());
+        let (f, pdf) = model.f_and_pdf(lobe, wo, wi);
+        (pdf > 0.0).then(|| BxdfSample::glossy(f.into(), wi.into(), pdf))
     }
 
     #[inline]
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        let Some(pair) = self.pair(wo, wi) else { return 0.0 };
-        self.density(&pair)
+        if self.is_smooth() {
+            return 0.0;
+        }
+        self.model().pdf(self.numbers(), wo.into(), wi.into())
     }
 
     #[inline]
     fn f_and_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
-        let Some(pair) = self.pair(wo, wi) else { return (Spectrum::BLACK, 0.0) };
-        (self.value(&pair), self.density(&pair))
+        if self.is_smooth() {
+            return (Spectrum::BLACK, 0.0);
+        }
+        let (f, pdf) = self.model().f_and_pdf(self.numbers(), wo.into(), wi.into());
+        (f.into(), pdf)
     }
 
     #[inline]

@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3};
 use super::{BxDF, BxdfFlags, WideBxdf};
 use crate::geometry::Xyz;
 use crate::geometry::trig::{abs_cos_theta, sin_theta, sin2_theta};
-use crate::simd::Float;
+use crate::simd::Block;
 use crate::spectrum::{Bands, Spectrum};
 
 /// Rough diffuse reflection: V-shaped grooves with Lambertian sides, whose slopes have the standard
@@ -41,15 +41,22 @@ impl OrenNayar {
     }
 }
 
-impl WideBxdf<5> for OrenNayar {
+impl OrenNayar {
+    /// The numbers of the lobe.
     #[inline(always)]
-    fn numbers(&self) -> [f32; 5] {
+    pub(super) fn numbers(&self) -> [f32; 5] {
         let [r, g, b] = self.r;
         [r, g, b, self.a, self.b]
     }
+}
 
+/// [`OrenNayar`] of any number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OrenNayarModel;
+
+impl WideBxdf<5> for OrenNayarModel {
     #[inline(always)]
-    fn f<F: Float>([red, green, blue, a, b]: [F; 5], wo: Xyz<F>, wi: Xyz<F>) -> Bands<F> {
+    fn f<F: Block>(self, [red, green, blue, a, b]: [F; 5], wo: Xyz<F>, wi: Xyz<F>) -> Bands<F> {
         // sin θi sin θo max(0, cos Δφ) is the dot product of the directions projected onto the surface, and
         // sin α tan β = sin θi sin θo / max(cos θi, cos θo): no angle has to be computed.
         let across = (wo.x * wi.x + wo.y * wi.y).max(F::splat(0.0));
@@ -66,7 +73,7 @@ impl BxDF for OrenNayar {
 
     #[inline]
     fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        <Self as WideBxdf<5>>::f(self.numbers(), wo.into(), wi.into()).into()
+        OrenNayarModel.f(self.numbers(), wo.into(), wi.into()).into()
     }
 
     #[inline]

@@ -4,10 +4,31 @@ use arrayvec::ArrayVec;
 
 use super::MAX_LOBES;
 use crate::geometry::float::ONE_MINUS_EPSILON;
+use crate::simd::Float;
 
 /// Fraction of the selection probability that is uniform over the lobes; the rest is proportional to
 /// [`BxDF::albedo_estimate`](super::BxDF::albedo_estimate). So a wrong estimate adds noise but never loses light.
 const EQUAL_PART: f32 = 0.1;
+
+/// The probabilities of two lobes.
+#[inline(always)]
+pub fn of_two<F: Float>([a, b]: [F; 2]) -> [F; 2] {
+    let [a, b] = [clamped(a), clamped(b)];
+    [share(a, a + b, 0.5), share(b, a + b, 0.5)]
+}
+
+#[inline(always)]
+fn clamped<F: Float>(estimate: F) -> F {
+    // False for NaN as well.
+    let is_positive = estimate.gt(F::splat(0.0));
+    F::select(is_positive, estimate.min(F::splat(1.0)), F::splat(0.0))
+}
+
+#[inline(always)]
+fn share<F: Float>(estimate: F, sum: F, equal: f32) -> F {
+    let share = F::select(sum.gt(F::splat(0.0)), estimate / sum, F::splat(equal));
+    F::splat(EQUAL_PART * equal) + F::splat(1.0 - EQUAL_PART) * share
+}
 
 /// Selection probability of each lobe.
 pub enum Shares {
@@ -22,14 +43,12 @@ impl Shares {
     #[inline(never)]
     pub fn new(mut estimates: ArrayVec<f32, MAX_LOBES>) -> Self {
         for estimate in &mut estimates {
-            // False for NaN as well.
-            *estimate = if *estimate > 0.0 { estimate.min(1.0) } else { 0.0 };
+            *estimate = clamped(*estimate);
         }
         let sum: f32 = estimates.iter().sum();
         let equal = 1.0 / estimates.len() as f32;
         for estimate in &mut estimates {
-            let share = if sum > 0.0 { *estimate / sum } else { equal };
-            *estimate = EQUAL_PART * equal + (1.0 - EQUAL_PART) * share;
+            *estimate = share(*estimate, sum, equal);
         }
         Self::Each(estimates)
     }

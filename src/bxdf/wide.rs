@@ -3,30 +3,39 @@
 use crate::geometry::Xyz;
 use crate::geometry::trig::same_side;
 use crate::sampling::cosine_hemisphere;
-use crate::simd::Float;
+use crate::simd::{Block, Float};
 use crate::spectrum::Bands;
 
-/// The formulas of a model that reflects, is no delta lobe and does not use `uc`. A lobe of it is `N` numbers; zeros are a black
-/// lobe.
+/// The formulas of a model that reflects and is no delta lobe, of which a lobe is `N` numbers. `self` is what all lobes of a material have in
+/// common.
 ///
 /// As for [`BxDF`](super::BxDF), directions are in shading coordinates, `wo.z` is not 0, and the defaults sample the
 /// cosine.
-pub trait WideBxdf<const N: usize> {
-    /// The numbers of a lobe.
-    fn numbers(&self) -> [f32; N];
+pub trait WideBxdf<const N: usize>: Copy {
+    /// Whether [`sample`](Self::sample) uses `uc`.
+    #[inline(always)]
+    fn uses_uc(self) -> bool {
+        false
+    }
 
     /// Value for a pair of directions.
-    fn f<F: Float>(lobe: [F; N], wo: Xyz<F>, wi: Xyz<F>) -> Bands<F>;
+    fn f<F: Block>(self, lobe: [F; N], wo: Xyz<F>, wi: Xyz<F>) -> Bands<F>;
 
     /// Density of `wi`.
     #[inline(always)]
-    fn pdf<F: Float>(_lobe: [F; N], wo: Xyz<F>, wi: Xyz<F>) -> F {
+    fn pdf<F: Block>(self, _lobe: [F; N], wo: Xyz<F>, wi: Xyz<F>) -> F {
         cosine_pdf(wo, wi)
+    }
+
+    /// Both.
+    #[inline(always)]
+    fn f_and_pdf<F: Block>(self, lobe: [F; N], wo: Xyz<F>, wi: Xyz<F>) -> (Bands<F>, F) {
+        (self.f(lobe, wo, wi), self.pdf(lobe, wo, wi))
     }
 
     /// A direction drawn with that density.
     #[inline(always)]
-    fn sample<F: Float>(_lobe: [F; N], wo: Xyz<F>, u: [F; 2]) -> Xyz<F> {
+    fn sample<F: Block>(self, _lobe: [F; N], wo: Xyz<F>, _uc: F, u: [F; 2]) -> Xyz<F> {
         cosine_sample(wo, u)
     }
 }

@@ -1,8 +1,8 @@
 //! [`HitBlock`]: what is known about a block of hits.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
-use super::{Hit, Source, SurfaceInteraction, SurfacePlace, oriented};
+use super::{Hit, Source, SurfaceInteraction, SurfacePlace, oriented, uv_at};
 use crate::geometry::{Bounded, BoundedPoint, Ray, Xyz};
 use crate::shape::{TriangleMesh, triangle_normal_wide};
 use crate::simd::{
@@ -105,6 +105,17 @@ impl<'a> HitBlock<'a> {
             source: Source::Triangle { mesh: &self.meshes[place.shape as usize], place },
             displaced: None,
         }
+    }
+
+    /// Texture coordinates of the hit with this index.
+    ///
+    /// # Panics
+    /// If there is no such hit.
+    #[inline]
+    pub fn uv(&self, i: usize) -> Vec2 {
+        assert!(i < self.len, "hit {i} of {}", self.len);
+        let SurfacePlace { shape, triangle, b } = self.place(i);
+        uv_at(&self.meshes[shape as usize], triangle, b)
     }
 
     #[inline]

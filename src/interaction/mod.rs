@@ -149,8 +149,7 @@ impl<'a> SurfaceInteraction<'a> {
     pub fn uv(&self) -> Vec2 {
         match &self.source {
             Source::Triangle { mesh, place: SurfacePlace { triangle, b, .. } } => {
-                let [uv0, uv1, uv2] = mesh.corner_uvs(*triangle as usize);
-                b[0] * uv0 + b[1] * uv1 + b[2] * uv2
+                uv_at(mesh, *triangle, *b)
             }
             Source::Given { uv, .. } => *uv,
         }
@@ -264,6 +263,13 @@ impl<'a> SurfaceInteraction<'a> {
     fn ray_origin(&self, w: Vec3) -> Vec3 {
         self.p.ray_origin(self.n, w)
     }
+}
+
+/// Texture coordinates of a point of a triangle.
+#[inline]
+fn uv_at(mesh: &TriangleMesh, triangle: u32, b: [f32; 3]) -> Vec2 {
+    let [uv0, uv1, uv2] = mesh.corner_uvs(triangle as usize);
+    b[0] * uv0 + b[1] * uv1 + b[2] * uv2
 }
 
 /// The geometric normal on the outer side, and the shading normal. If there are vertex normals, they define both (PBRT 3rd

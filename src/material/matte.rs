@@ -5,8 +5,7 @@ use std::sync::Arc;
 use super::reflectance::reflectance;
 use super::{Material, Materials, Read, bump};
 use crate::bxdf::{
-    Arena, Bsdf, BsdfBlock, EnergyPreservingOrenNayar, LambertianReflection, Lobe, OrenNayar,
-    WideBxdf,
+    Arena, Bsdf, BsdfBlock, EnergyPreservingOrenNayar, LambertianReflection, OrenNayar, WideLobe,
 };
 use crate::interaction::{BLOCK, HitBlock, SurfaceInteraction};
 use crate::params::{Fault, Key, Kind, Table};
@@ -113,13 +112,13 @@ impl Material for MatteMaterial {
 impl MatteMaterial {
     /// Fills a block with the lobes that `lobe` makes of kd and the parameter of roughness.
     #[inline]
-    fn fill<'a, M, const N: usize>(
+    fn fill<'a, L>(
         &self,
         hits: &HitBlock,
         bsdfs: &mut BsdfBlock<'a>,
-        lobe: impl Fn(Spectrum, f32) -> M,
+        lobe: impl Fn(Spectrum, f32) -> L,
     ) where
-        M: WideBxdf<N> + Into<Lobe<'a>>,
+        L: Into<WideLobe<'a>>,
     {
         let texture = self.rough.as_ref().map(Rough::texture);
         let constant = texture.map_or(Some(0.0), |texture| texture.constant());
@@ -133,7 +132,7 @@ impl MatteMaterial {
         if let (Some(texture), None) = (texture, constant) {
             texture.evaluate_block(hits, &mut parameter[..hits.len()]);
         }
-        bsdfs.fill_alike(hits, |i| lobe(kd[i], parameter[i]));
+        bsdfs.fill_alike(hits, |i| lobe(kd[i], parameter[i]).into());
     }
 }
 

@@ -7,8 +7,8 @@ use super::reflectance::reflectance;
 use super::roughness::{self, Roughness};
 use super::{Material, Materials, Read};
 use crate::bxdf::fresnel::Fresnel;
-use crate::bxdf::{Arena, Bsdf, CoatedDiffuse, Losses, MicrofacetReflection};
-use crate::interaction::SurfaceInteraction;
+use crate::bxdf::{Arena, Bsdf, BsdfBlock, Coated, CoatedDiffuse, Losses, MicrofacetReflection};
+use crate::interaction::{BLOCK, HitBlock, SurfaceInteraction};
 use crate::params::{Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
 use crate::texture::{Texture, TextureHandle, TextureKey, Textures};
@@ -50,6 +50,36 @@ impl Material for PlasticMaterial {
             bsdf.add(CoatedDiffuse::new(r, alpha, &self.losses));
         }
         bsdf
+    }
+
+    fn scatter_block<'a>(
+        &'a self,
+        hits: &mut HitBlock,
+        arena: &'a Arena,
+        bsdfs: &mut BsdfBlock<'a>,
+    ) {
+        if !self.roughness.is_isotropic() || !bsdfs.fill_alike(hits, self.coated_at(hits)) {
+            bsdfs.fill(hits, |_, si| self.compute_scattering(si, arena));
+        }
+    }
+}
+
+impl PlasticMaterial {
+    /// Coat and base at each hit of a block.
+    #[inline]
+    fn coated_at<'a>(&'a self, hits: &HitBlock) -> impl Fn(usize) -> Coated<'a> + use<'a> {
+        // What a texture leaves out shows.
+        let mut kd = [Spectrum::splat(f32::NAN); BLOCK];
+        self.kd.evaluate_block(hits, &mut kd[..hits.len()]);
+        let alpha = self.roughness.at_block(hits);
+        let fresnel = Fresnel::Dielectric { eta: self.eta };
+        move |i| {
+            let base = match reflectance(kd[i]) {
+                Some(r) => Some(CoatedDiffuse::new(r, alpha[i], &self.losses)),
+                None => None,
+            };
+            Coated::new(MicrofacetReflection::new(alpha[i], fresnel), base, &self.losses)
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! [`Roughness`]: how rough the surface of a glossy material is.
 
 use crate::bxdf::{Bsdf, Roughnesses};
-use crate::interaction::SurfaceInteraction;
+use crate::interaction::{BLOCK, HitBlock, SurfaceInteraction};
 use crate::params::{AnyKey, Choice, Fault, Key, Table};
 use crate::texture::{Texture, TextureHandle, TextureKey, Textures};
 
@@ -64,6 +64,28 @@ impl Roughness {
         let along = self.to_alpha(self.along.evaluate(si));
         let across = self.across.as_ref().map(|across| self.to_alpha(across.evaluate(si)));
         [along, across.unwrap_or(along)]
+    }
+
+    /// [`at`](Self::at) each hit of a block.
+    #[inline]
+    pub(super) fn at_block(&self, hits: &HitBlock) -> [[f32; 2]; BLOCK] {
+        let of = |texture: &TextureHandle<f32>| {
+            let mut alpha = [f32::NAN; BLOCK];
+            texture.evaluate_block(hits, &mut alpha[..hits.len()]);
+            for alpha in &mut alpha {
+                *alpha = self.to_alpha(*alpha);
+            }
+            alpha
+        };
+        let along = of(&self.along);
+        let across = self.across.as_ref().map(of).unwrap_or(along);
+        std::array::from_fn(|i| [along[i], across[i]])
+    }
+
+    /// Whether the surface is the same to all sides.
+    #[inline]
+    pub(super) fn is_isotropic(&self) -> bool {
+        self.across.is_none()
     }
 
     /// All that [`at`](Self::at) returns.

@@ -116,6 +116,27 @@ pub trait Block: Float {
     fn load(from: &[f32]) -> Self;
     /// Writes to the first numbers of a slice.
     fn store(self, to: &mut [f32]);
+    /// Applies a function of one number to each lane.
+    #[inline(always)]
+    fn each(self, mut f: impl FnMut(f32) -> f32) -> Self {
+        let mut x = [0.0; MAX_LANES];
+        self.store(&mut x);
+        for x in &mut x[..Self::LANES] {
+            *x = f(*x);
+        }
+        Self::load(&x)
+    }
+    /// Applies a function of two numbers to each lane of two vectors.
+    #[inline(always)]
+    fn zip_each(self, other: Self, mut f: impl FnMut(f32, f32) -> f32) -> Self {
+        let (mut x, mut y) = ([0.0; MAX_LANES], [0.0; MAX_LANES]);
+        self.store(&mut x);
+        other.store(&mut y);
+        for lane in 0..Self::LANES {
+            x[lane] = f(x[lane], y[lane]);
+        }
+        Self::load(&x)
+    }
     /// First and second numbers of the first pairs of a slice.
     fn load_pairs(from: &[Vec2]) -> [Self; 2];
     /// Number i of each of as many records as lanes, for each i: `record` returns the one for a lane.

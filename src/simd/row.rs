@@ -45,6 +45,12 @@ impl Row {
     pub fn set(&mut self, i: usize, x: f32) {
         self.0[i % ROW] = x;
     }
+
+    /// The numbers of the first hits.
+    #[inline(always)]
+    pub fn first_mut(&mut self, len: usize) -> &mut [f32] {
+        &mut self.0[..len]
+    }
 }
 
 /// `N` numbers for each hit of a block, such as the coordinates of a vector: a row of each.

@@ -8,7 +8,7 @@ use glam::Vec2;
 use super::mapping::{self, Mapping};
 use super::texels::{Curve, Texels};
 use super::{AnyTexture, Read, Texture, Textures};
-use crate::interaction::SurfaceInteraction;
+use crate::interaction::{HitBlock, SurfaceInteraction};
 use crate::params::{Choice, Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
 
@@ -98,47 +98,88 @@ impl ImageTexture {
 
     /// The colour at a point of the image's plane. Black if the point is not finite.
     pub fn at(&self, st: Vec2) -> Spectrum {
-        let size = self.texels.size();
-        // In pixels from the top left corner, with centres at integers.
-        let at = Vec2::new(st.x, 1.0 - st.y) * size.as_vec2() - 0.5;
-        if !at.is_finite() {
+        if !st.is_finite() {
             return Spectrum::BLACK;
         }
-        let pixel = |x: i64, y: i64| {
-            let [x, y] = [(x, size.x, self.wrap[0]), (y, size.y, self.wrap[1])]
-                .map(|(index, count, wrap)| wrapped(index, count, wrap));
-            self.texels.at(x, y)
-        };
+        let ([wrap_s, wrap_t], size) = (self.wrap, self.texels.size());
+        // From the top left corner.
+        let (s, t) = (wrap_s.folded(st.x), 1.0 - wrap_t.folded(st.y));
         match self.magnification {
-            Magnification::Nearest => pixel(at.x.round() as i64, at.y.round() as i64),
+            Magnification::Nearest => {
+                let index = |at: f32, count: u32| ((at * count as f32) as u32).min(count - 1);
+                self.texels.at(index(s, size.x), index(t, size.y))
+            }
             Magnification::Bilinear => {
-                let floor = at.floor();
-                let (x, y, part) = (floor.x as i64, floor.y as i64, at - floor);
-                let row = |y| pixel(x, y) * (1.0 - part.x) + pixel(x + 1, y) * part.x;
-                row(y) * (1.0 - part.y) + row(y + 1) * part.y
+                let (x, part_x) = wrap_s.neighbours(s, size.x);
+                let (y, part_y) = wrap_t.neighbours(t, size.y);
+                self.texels.between(x, y, [part_x, part_y])
             }
         }
     }
 }
 
-/// The pixel of a row or column that stands for this one.
-#[inline]
-fn wrapped(index: i64, count: u32, wrap: Wrap) -> u32 {
-    let count = i64::from(count);
-    let inside = match wrap {
-        Wrap::Repeat => index.rem_euclid(count),
-        Wrap::Mirror => {
-            let index = index.rem_euclid(2 * count);
-            index.min(2 * count - 1 - index)
+impl Wrap {
+    /// The coordinate in `[0, 1]` that stands for this one.
+    #[inline]
+    fn folded(self, s: f32) -> f32 {
+        match self {
+            Self::Repeat => s - floor(s),
+            Self::Mirror => {
+                let s = s - 2.0 * floor(0.5 * s);
+                if s > 1.0 { 2.0 - s } else { s }
+            }
+            Self::Clamp => s.clamp(0.0, 1.0),
         }
-        Wrap::Clamp => index.clamp(0, count - 1),
-    };
-    inside as u32
+    }
+
+    /// The two pixels whose centres are next to a coordinate in `[0, 1]`, of `count` in a row, and the weight of the second.
+    #[inline]
+    fn neighbours(self, s: f32, count: u32) -> ([u32; 2], f32) {
+        let at = s * count as f32 - 0.5;
+        let last = count - 1;
+        if at < 0.0 {
+            let before = if self == Self::Repeat { last } else { 0 };
+            return ([before, 0], at + 1.0);
+        }
+        let first = (at as u32).min(last);
+        let second = match self {
+            Self::Repeat if first == last => 0,
+            _ => (first + 1).min(last),
+        };
+        ([first, second], at - first as f32)
+    }
+}
+
+/// The largest integer that is not larger. Without SSE4, that of the standard library is a call.
+#[inline]
+fn floor(x: f32) -> f32 {
+    // From 2^23 on all are integers.
+    if x.abs() >= 8_388_608.0 {
+        return x;
+    }
+    let truncated = x as i32 as f32;
+    if truncated > x { truncated - 1.0 } else { truncated }
 }
 
 impl Texture<Spectrum> for ImageTexture {
     fn evaluate(&self, si: &SurfaceInteraction) -> Spectrum {
         self.mapping.points(si).into_iter().map(|(st, weight)| self.at(st) * weight).sum()
+    }
+
+    fn evaluate_block(&self, hits: &HitBlock, values: &mut [Spectrum]) {
+        match self.mapping.of_uv() {
+            Some(plane) => {
+                for (i, value) in values.iter_mut().enumerate() {
+                    // As the sum of one weighted value.
+                    *value = self.at(plane.transform_point2(hits.uv(i)));
+                }
+            }
+            None => {
+                for (i, value) in values.iter_mut().enumerate() {
+                    *value = self.evaluate(&hits.get(i));
+                }
+            }
+        }
     }
 }
 
@@ -252,11 +293,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn indices_wrap() {
-        let all = |wrap| (-3..6).map(|i| wrapped(i, 2, wrap)).collect::<Vec<_>>();
+    fn pixels_continue_beyond_the_edges() {
+        let pixel = |wrap: Wrap, s: f32| (wrap.folded(s) * 2.0) as u32;
+        let all = |wrap| (-3..6).map(|i| pixel(wrap, 0.5 * i as f32 + 0.25)).collect::<Vec<_>>();
         assert_eq!(all(Wrap::Repeat), [1, 0, 1, 0, 1, 0, 1, 0, 1]);
         assert_eq!(all(Wrap::Mirror), [1, 1, 0, 0, 1, 1, 0, 0, 1]);
-        assert_eq!(all(Wrap::Clamp), [0, 0, 0, 0, 1, 1, 1, 1, 1]);
-        assert_eq!(wrapped(i64::MIN, 1, Wrap::Mirror), 0);
+        assert_eq!(all(Wrap::Clamp), [0, 0, 0, 0, 1, 2, 2, 2, 2]);
+        for (wrap, before, after) in
+            [(Wrap::Repeat, [2, 0], [2, 0]), (Wrap::Mirror, [0, 0], [2, 2])]
+        {
+            assert_eq!(wrap.neighbours(0.0, 3), (before, 0.5));
+            assert_eq!(wrap.neighbours(1.0, 3), (after, 0.5));
+        }
     }
 }

@@ -90,6 +90,12 @@ impl Mapping {
         Self { plane: Affine2::from_translation(by) * self.plane, ..self }
     }
 
+    /// From texture coordinates of the surface, if these are what it projects.
+    #[inline]
+    pub(super) fn of_uv(&self) -> Option<Affine2> {
+        (self.projection == Projection::Uv).then_some(self.plane)
+    }
+
     /// Points of the texture and their weights, which add up to 1.
     #[inline]
     pub(super) fn points(&self, si: &SurfaceInteraction) -> ArrayVec<(Vec2, f32), 3> {

@@ -82,6 +82,16 @@ impl Texels {
         }
     }
 
+    /// Between four pixels: of two columns and two rows, with the weights of the second of each.
+    ///
+    /// # Panics
+    /// If there is no such pixel.
+    #[inline]
+    pub(super) fn between(&self, x: [u32; 2], y: [u32; 2], [part_x, part_y]: [f32; 2]) -> Spectrum {
+        let row = |y| self.at(x[0], y) * (1.0 - part_x) + self.at(x[1], y) * part_x;
+        row(y[0]) * (1.0 - part_y) + row(y[1]) * part_y
+    }
+
     /// The value of a pixel.
     ///
     /// # Panics

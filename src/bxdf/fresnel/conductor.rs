@@ -3,7 +3,7 @@
 use glam::{Vec3, Vec4};
 
 use crate::simd::Float;
-use crate::spectrum::Spectrum;
+use crate::spectrum::{Bands, Spectrum};
 
 /// The fraction of unpolarized light that a smooth metal reflects, per band.
 ///
@@ -24,7 +24,17 @@ pub fn conductor(cos: f32, eta: Spectrum, k: Spectrum) -> Spectrum {
     Spectrum::new(r, g, b)
 }
 
-/// One band in each lane.
+/// [`conductor`] in each lane.
+#[inline(always)]
+pub fn of_conductor<F: Float>(cos: F, eta: [f32; 3], k: [f32; 3]) -> Bands<F> {
+    let mut bands = [F::splat(0.0); 3];
+    for ((band, eta), k) in bands.iter_mut().zip(eta).zip(k) {
+        *band = of_band(cos, F::splat(eta), F::splat(k));
+    }
+    Bands(bands)
+}
+
+/// A band.
 ///
 /// With a + ib = √(η² - k² - sin² θ + 2iηk) and c = cos θ, |r|² is ((a - c)² + b²) / ((a + c)² + b²) across the plane of incidence, and that
 /// times ((ac - s²)² + b²c²) / ((ac + s²)² + b²c²) with s = sin θ in it (PBRT 3rd edition, section 8.2.1). The smaller of a and b is

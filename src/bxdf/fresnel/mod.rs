@@ -4,10 +4,12 @@ mod conductor;
 mod dielectric;
 
 pub use conductor::conductor;
+use conductor::of_conductor;
 pub(crate) use dielectric::boundary;
 pub use dielectric::dielectric;
 
-use crate::spectrum::Spectrum;
+use crate::simd::Float;
+use crate::spectrum::{Bands, Spectrum};
 
 /// What a smooth surface reflects at each angle (PBRT 3rd edition, section 8.2.1).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +40,16 @@ impl Fresnel {
                 Spectrum::splat(dielectric(cos, if cos < 0.0 { 1.0 / eta } else { eta }))
             }
             Self::Conductor { eta, k } => conductor(cos, eta.into(), k.into()),
+        }
+    }
+
+    /// [`evaluate`](Self::evaluate) for directions above the surface.
+    #[inline(always)]
+    pub(crate) fn above<F: Float>(&self, cos: F) -> Bands<F> {
+        match *self {
+            Self::NoOp => Bands::splat(Spectrum::WHITE),
+            Self::Dielectric { eta } => Bands([boundary(cos, F::splat(eta))[0]; 3]),
+            Self::Conductor { eta, k } => of_conductor(cos, eta, k),
         }
     }
 

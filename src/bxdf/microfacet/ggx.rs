@@ -114,11 +114,10 @@ impl Ggx {
         Vec2::new(if turn < 0.0 { turn + 1.0 } else { turn }, (1.0 - c.z) / (1.0 + h.z))
     }
 
-    /// The roughness that a surface has on the average over its directions.
+    /// The roughness along x and along y.
     #[inline]
-    pub(in crate::bxdf) fn mean_alpha(&self) -> f32 {
-        let [x, y] = self.alpha;
-        if x == y { x } else { (0.5 * (x * x + y * y)).sqrt() }
+    pub(in crate::bxdf) fn alpha(&self) -> [f32; 2] {
+        self.alpha
     }
 }
 
@@ -128,6 +127,19 @@ impl<F: Float> Ggx<F> {
     pub(in crate::bxdf) fn splat(ggx: Ggx) -> Self {
         let [x, y] = ggx.alpha;
         Self { alpha: [F::splat(x), F::splat(y)] }
+    }
+
+    /// With the roughness along x and along y as it is: of a lobe.
+    #[inline(always)]
+    pub(in crate::bxdf) fn of(alpha: [F; 2]) -> Self {
+        Self { alpha }
+    }
+
+    /// The roughness that a surface has on the average over its directions.
+    #[inline(always)]
+    pub(in crate::bxdf) fn mean_alpha(&self) -> F {
+        let [x, y] = self.alpha;
+        F::select(x.eq(y), x, (F::splat(0.5) * (x * x + y * y)).sqrt())
     }
 
     /// s(w).

@@ -1,12 +1,12 @@
 //! [`Losses`]: what single scattering loses on rough surfaces, integrated for the surface at hand.
 
-use glam::Vec3;
-
 use super::Ggx;
 use super::azimuths::Azimuths;
 use super::returned::{Interface, Lattice};
 use super::row::{Row, position, split};
 use crate::bxdf::fresnel::{Fresnel, boundary};
+use crate::geometry::Xyz;
+use crate::simd::Block;
 
 /// For which roughness [`Losses`] are integrated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,28 +122,44 @@ impl Losses {
     }
 
     /// At a direction above the surface.
-    #[inline]
-    pub(in crate::bxdf) fn at(&self, ggx: &Ggx, w: Vec3) -> f32 {
-        let (row, share) = match self.axis {
-            Axis::None => (0, 0.0),
-            Axis::Alpha => alpha_row(ggx.mean_alpha()),
+    #[inline(always)]
+    pub(in crate::bxdf) fn at<F: Block>(&self, ggx: &Ggx<F>, w: Xyz<F>) -> F {
+        let zero = F::splat(0.0);
+        if let Axis::Smooth = self.axis {
+            return F::splat(1.0) - boundary(w.z, F::splat(self.eta()))[0];
+        }
+        let position = position(w.z, ggx.stretched_length(w));
+        match self.axis {
+            Axis::None | Axis::Smooth => position.each(|position| self.rows[0].at(position)),
+            Axis::Alpha => position.zip_each(ggx.mean_alpha(), |position, alpha| {
+                self.between(alpha_row(alpha), position)
+            }),
             Axis::Azimuth(azimuths) => {
                 let [x2, y2] = [w.x * w.x, w.y * w.y];
-                azimuths.row(if x2 + y2 > 0.0 { x2 / (x2 + y2) } else { 0.0 })
+                let sum = x2 + y2;
+                let cos2_phi = F::select(sum.gt(zero), x2 / sum, zero);
+                position.zip_each(cos2_phi, |position, cos2_phi| {
+                    self.between(azimuths.row(cos2_phi), position)
+                })
             }
-            Axis::Smooth => return 1.0 - boundary(w.z, self.eta())[0],
-        };
-        let position = position(w.z, ggx.stretched_length(w.into()));
+        }
+    }
+
+    /// Between a row and the next.
+    #[inline(always)]
+    fn between(&self, (row, share): (usize, f32), position: f32) -> f32 {
         let lost = self.rows[row].at(position);
         if share > 0.0 { lost + share * (self.rows[row + 1].at(position) - lost) } else { lost }
     }
 
     /// The cosine-weighted mean over directions.
-    #[inline]
-    pub(in crate::bxdf) fn mean(&self, ggx: &Ggx) -> f32 {
-        let Axis::Alpha = self.axis else { return self.means[0] };
-        let (row, share) = alpha_row(ggx.mean_alpha());
-        self.means[row] + share * (self.means[row + 1] - self.means[row])
+    #[inline(always)]
+    pub(in crate::bxdf) fn mean<F: Block>(&self, ggx: &Ggx<F>) -> F {
+        let Axis::Alpha = self.axis else { return F::splat(self.means[0]) };
+        ggx.mean_alpha().each(|alpha| {
+            let (row, share) = alpha_row(alpha);
+            self.means[row] + share * (self.means[row + 1] - self.means[row])
+        })
     }
 }
 

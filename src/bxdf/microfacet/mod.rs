@@ -4,24 +4,27 @@ mod azimuths;
 mod boundary_losses;
 mod ggx;
 mod losses;
-pub(super) mod multiple;
+mod multiple;
 mod returned;
 mod row;
-
-use glam::Vec3;
 
 pub use boundary_losses::BoundaryLosses;
 pub use ggx::Ggx;
 pub use losses::{Losses, Roughnesses};
+pub(super) use multiple::Spread;
+
+use crate::geometry::Xyz;
+use crate::simd::Float;
 
 /// Two directions mirrored so that the first is above the surface.
-#[inline]
-pub(super) fn above(wo: Vec3, wi: Vec3) -> [Vec3; 2] {
-    if wo.z < 0.0 { [wo, wi].map(flipped) } else { [wo, wi] }
+#[inline(always)]
+pub(super) fn above<F: Float>([wo, wi]: [Xyz<F>; 2]) -> [Xyz<F>; 2] {
+    let is_below = wo.z.lt(F::splat(0.0));
+    [flipped(is_below, wo), flipped(is_below, wi)]
 }
 
-/// The direction on the other side of the surface.
-#[inline]
-pub(super) fn flipped(w: Vec3) -> Vec3 {
-    Vec3::new(w.x, w.y, -w.z)
+/// The direction on the other side of the surface, in lanes of a mask.
+#[inline(always)]
+pub(super) fn flipped<F: Float>(mask: F::Mask, w: Xyz<F>) -> Xyz<F> {
+    Xyz { z: F::select(mask, -w.z, w.z), ..w }
 }

@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::Ggx;
 use super::returned::{Interface, Lattice};
+use crate::simd::Float;
 
 /// Number of nodes over the polar angle.
 const NODES: usize = 128;
@@ -57,9 +58,9 @@ const LAST: f32 = (NODES - 1) as f32;
 ///
 /// Losses change with cos θ / s, along the surface over angles as small as the roughness, and with cos θ where indices differ little.
 /// The roots are what makes them nearly straight lines along the surface.
-#[inline]
-pub fn position(cos: f32, stretched_length: f32) -> f32 {
-    0.5 * ((cos / stretched_length).sqrt() + cos.sqrt().sqrt())
+#[inline(always)]
+pub fn position<F: Float>(cos: F, stretched_length: F) -> F {
+    F::splat(0.5) * ((cos / stretched_length).sqrt() + cos.sqrt().sqrt())
 }
 
 /// The cosine at a position, where `alpha` is the roughness in the plane of the direction and the normal.
