@@ -11,6 +11,7 @@ use lobe::glam::{Affine3A, Vec2, Vec3};
 use lobe::image::{Display, Metadata, write_png};
 use lobe::integrator::DirectIntegrator;
 use lobe::interaction::SurfaceInteraction;
+use lobe::material::DetailedMaterial;
 use lobe::render::SamplerSettings;
 use lobe::sampling::SamplerKind;
 use lobe::texture::Texture;
@@ -59,7 +60,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let ripples = Arc::new(Ripples { height: 0.02, per_unit: 20.0 });
     let scene = Scene::builder()
         .material("jade", MatteMaterial::new([0.1, 0.5, 0.25]).with_sigma(20.0))
-        .material("pond", MatteMaterial::new(checkers).with_bump(ripples))
+        .material("pond", DetailedMaterial::new(MatteMaterial::new(checkers)).with_bump(ripples))
         .shape("torus", torus, "jade")
         .shape("floor", floor, "pond")
         .light(PointLight::new(Vec3::new(-2.0, 6.0, -7.0), Spectrum::splat(250.0)))

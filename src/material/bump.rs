@@ -1,9 +1,10 @@
-//! Bump mapping: perturbs the shading frame by a displacement texture.
+//! Bump and normal mapping: textures that tilt the shading frame.
 
 use glam::{Vec2, Vec3};
 
 use crate::geometry::unit_cross;
 use crate::interaction::{Shading, SurfaceInteraction};
+use crate::spectrum::Spectrum;
 use crate::texture::Texture;
 
 /// Step in u and v of the finite difference (PBRT's value for rays without differentials).
@@ -39,4 +40,20 @@ pub fn bump(displacement: &dyn Texture<f32>, si: &mut SurfaceInteraction) {
 /// A step from `x` for which `x + step` is exact in floating point.
 fn exact_step(x: f32) -> f32 {
     (x + STEP.max(MIN_STEP * x.abs())) - x
+}
+
+/// Turns the shading normal to that of a texture, whose colours are (n + 1) / 2: red along ∂p/∂u, green along ∂p/∂v, blue along the
+/// shading normal, as OpenGL and glTF have it. If the derivatives span no plane, or the normal does not point outwards, the frame stays as it
+/// is.
+#[doc(alias = "normal map")]
+pub fn turn(normals: &dyn Texture<Spectrum>, si: &mut SurfaceInteraction) {
+    let shading = si.shading();
+    let [x, y, z] = normals.evaluate(si).to_array().map(|code| 2.0 * code - 1.0);
+    let along_u = shading.dpdu.normalize_or_zero();
+    let along_v = (shading.dpdv - along_u * along_u.dot(shading.dpdv)).normalize_or_zero();
+    if z > 0.0 && along_u != Vec3::ZERO && along_v != Vec3::ZERO {
+        let n = (along_u * x + along_v * y + shading.n * z).normalize();
+        let [dpdu, dpdv] = [shading.dpdu, shading.dpdv].map(|v| v - n * n.dot(v));
+        si.set_shading(Shading { n, dpdu, dpdv, ..shading });
+    }
 }

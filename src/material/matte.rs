@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::reflectance::reflectance;
-use super::{Material, Materials, Read, bump};
+use super::{Material, Materials, Read};
 use crate::bxdf::{
     Arena, Bsdf, BsdfBlock, EnergyPreservingOrenNayar, LambertianReflection, OrenNayar, WideLobe,
 };
@@ -26,7 +26,6 @@ use crate::texture::{Texture, TextureHandle, TextureKey, Textures};
 pub struct MatteMaterial {
     kd: TextureHandle<Spectrum>,
     rough: Option<Rough>,
-    bump: Option<TextureHandle<f32>>,
 }
 
 /// A model of rough surfaces and its parameter.
@@ -46,7 +45,7 @@ impl Rough {
 impl MatteMaterial {
     /// Lambertian reflection of the fraction `kd` of incident light, clamped to `[0, 1]` per band.
     pub fn new(kd: impl Texture<Spectrum> + 'static) -> Self {
-        Self { kd: kd.into_handle(), rough: None, bump: None }
+        Self { kd: kd.into_handle(), rough: None }
     }
 
     /// Makes the surface rough: the standard deviation of its slopes in degrees, clamped to `[0, 90]`. Where it is 0 the surface is
@@ -60,19 +59,11 @@ impl MatteMaterial {
     pub fn with_roughness(self, roughness: impl Texture<f32> + 'static) -> Self {
         Self { rough: Some(Rough::EnergyPreserving(roughness.into_handle())), ..self }
     }
-
-    /// Adds bump mapping by a displacement along the normal, in scene units. See [`bump`].
-    pub fn with_bump(self, displacement: impl Texture<f32> + 'static) -> Self {
-        Self { bump: Some(displacement.into_handle()), ..self }
-    }
 }
 
 impl Material for MatteMaterial {
     #[inline]
     fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, _: &'a Arena) -> Bsdf<'a> {
-        if let Some(displacement) = &self.bump {
-            bump(displacement, si);
-        }
         let mut bsdf = Bsdf::isotropic(si);
         if let Some(r) = reflectance(self.kd.evaluate(si)) {
             let rough = self.rough.as_ref().map(|rough| (rough, rough.texture().evaluate(si)));
@@ -87,15 +78,7 @@ impl Material for MatteMaterial {
         bsdf
     }
 
-    fn scatter_block<'a>(
-        &'a self,
-        hits: &mut HitBlock,
-        arena: &'a Arena,
-        bsdfs: &mut BsdfBlock<'a>,
-    ) {
-        if self.bump.is_some() {
-            return bsdfs.fill(hits, |_, si| self.compute_scattering(si, arena));
-        }
+    fn scatter_block<'a>(&'a self, hits: &mut HitBlock, _: &'a Arena, bsdfs: &mut BsdfBlock<'a>) {
         match &self.rough {
             Some(Rough::EnergyPreserving(_)) => self.fill(hits, bsdfs, eon),
             // A sigma of 0 gives the bits of Lambertian reflection.
@@ -171,16 +154,12 @@ const ROUGHNESS: TextureKey<Option<f32>> = TextureKey::of(
     Key::optional("roughness", "roughness that loses no energy, in place of sigma")
         .range(0.0..=1.0),
 );
-const BUMP: TextureKey<Option<f32>> = TextureKey::of(Key::optional(
-    "bump",
-    "displacement along the normal, in scene units; a constant tilts nothing",
-));
 
 /// `type = "matte"`
 pub(super) const KIND: Kind<Read> = Kind {
     name: "matte",
     meaning: "Diffuse: Lambertian, or rough by one of two models",
-    keys: &[&KD, &ROUGHNESS, &SIGMA, &BUMP],
+    keys: &[&KD, &ROUGHNESS, &SIGMA],
     read,
 };
 
@@ -192,10 +171,7 @@ fn read(table: &Table, textures: &Textures, _: &Materials) -> Result<Arc<dyn Mat
         Some(_) if sigma.constant() != Some(0.0) => return Err(two_models(table)),
         Some(roughness) => matte.with_roughness(roughness),
     };
-    Ok(match textures.find(table, &BUMP)? {
-        Some(displacement) => Arc::new(matte.with_bump(displacement)),
-        None => Arc::new(matte),
-    })
+    Ok(Arc::new(matte))
 }
 
 /// Both kinds of roughness.

@@ -2,6 +2,7 @@
 
 mod bump;
 mod conductor;
+mod detailed;
 mod facets;
 mod glass;
 mod matte;
@@ -19,7 +20,9 @@ mod thin_glass;
 mod traits;
 mod translucent;
 
-pub use bump::bump;
+pub use bump::{bump, turn};
+pub(crate) use detailed::with_details;
+pub use detailed::{DETAILS, DetailedMaterial};
 pub use glass::GlassMaterial;
 pub use matte::MatteMaterial;
 pub use metal::MetalMaterial;

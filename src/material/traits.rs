@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::bxdf::{Arena, Bsdf, BsdfBlock};
 use crate::interaction::{HitBlock, SurfaceInteraction};
 use crate::params::{Fault, Key, Problem, Table};
-use crate::texture::Textures;
+use crate::texture::{TextureHandle, Textures};
 
 /// Function that reads a kind of material from a scene file.
 pub type Read = fn(&Table, &Textures, &Materials) -> Result<Arc<dyn Material>, Fault>;
@@ -116,6 +116,12 @@ pub trait Material: Send + Sync {
         bsdfs.fill(hits, |_, si| self.compute_scattering(si, arena));
     }
 
+    /// The fraction of rays that the surface stops, if some pass: see
+    /// [`DetailedMaterial::with_opacity`](super::DetailedMaterial::with_opacity). Scenes without such materials pay nothing.
+    fn opacity(&self) -> Option<&TextureHandle<f32>> {
+        None
+    }
+
     /// Wraps the material for a scene, without a second `Arc` around one that is shared.
     #[doc(hidden)]
     fn into_arc(self) -> Arc<dyn Material>
@@ -146,6 +152,10 @@ macro_rules! shared {
                 bsdfs: &mut BsdfBlock<'a>,
             ) {
                 (**self).scatter_block(hits, arena, bsdfs);
+            }
+
+            fn opacity(&self) -> Option<&TextureHandle<f32>> {
+                (**self).opacity()
             }
 
             fn into_arc(self) -> Arc<dyn Material> {

@@ -44,6 +44,7 @@ mod wide;
 
 pub use blue_noise::BlueNoiseSampler;
 pub use discrete::Discrete;
+pub(crate) use hash::{mix, unit_float};
 pub use independent::IndependentSampler;
 pub use kind::{Make, SampleSets, SamplerKind};
 pub(crate) use random::Random;

@@ -227,6 +227,7 @@ impl SceneBuilder {
             shapes,
             meshes,
             lights,
+            has_holes: known.used.iter().any(|material| material.opacity().is_some()),
             materials: known.used,
             accel,
             build_seconds: start.seconds(),

@@ -4,6 +4,7 @@
 //! any view with any settings.
 
 mod builder;
+mod holes;
 mod model;
 mod settings;
 mod view;

@@ -38,6 +38,8 @@ pub struct Scene {
     pub(super) lights: Vec<Arc<dyn Light>>,
     /// Those that shapes have, each once.
     pub(super) materials: Vec<Arc<dyn Material>>,
+    /// Whether a material lets rays pass.
+    pub(super) has_holes: bool,
     pub(super) accel: Accel,
     pub(super) build_seconds: f64,
 }

@@ -7,7 +7,7 @@ use crate::film::{FILTERS, ReadFilter};
 use crate::image::Display;
 use crate::integrator::{self, INTEGRATORS};
 use crate::light::{self, LIGHTS};
-use crate::material::{self, MATERIALS};
+use crate::material::{self, DETAILS, MATERIALS};
 use crate::params::{AnySection, Key, Rotation, Scale, Section};
 use crate::render::SamplerSettings;
 use crate::sampling::{Make, SAMPLERS};
@@ -100,7 +100,7 @@ pub static MATERIAL: Section<material::Read> = Section {
     is_named: true,
     selector: "type",
     default: None,
-    common: &[],
+    common: DETAILS,
     kinds: MATERIALS,
 };
 

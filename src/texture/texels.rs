@@ -37,15 +37,36 @@ impl Curve {
 }
 
 /// An image in memory for lookups: 4 bytes a pixel if its codes have 8 bits, else 12. Row 0 is at the top.
+///
+/// Pixels are kept in tiles of 4 x 4, so that the four of a lookup are most often in one line of the cache.
 pub struct Texels {
     size: UVec2,
+    /// Tiles in a row.
+    tiles: u32,
     pixels: Pixels,
 }
 
 enum Pixels {
     /// Codes, and what each stands for.
-    Codes(Vec<[u8; 4]>, Box<[f32; 256]>),
-    Values(Vec<[f32; 3]>),
+    Codes(Vec<Tile<[u8; 4]>>, Box<[f32; 256]>),
+    Values(Vec<Tile<[f32; 3]>>),
+}
+
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+struct Tile<T>([T; 16]);
+
+/// Pixels in tiles, row by row; those beyond the edges are not looked up.
+fn tiled<T: Copy>(size: UVec2, pixel: impl Fn(usize) -> T) -> Vec<Tile<T>> {
+    let [width, height] = [size.x, size.y].map(|x| x as usize);
+    let tile = |tile: usize| {
+        let (tile_y, tile_x) = (tile / width.div_ceil(4), tile % width.div_ceil(4));
+        Tile(std::array::from_fn(|i| {
+            let (x, y) = (4 * tile_x + i % 4, 4 * tile_y + i / 4);
+            pixel(y.min(height - 1) * width + x.min(width - 1))
+        }))
+    };
+    (0..width.div_ceil(4) * height.div_ceil(4)).map(tile).collect()
 }
 
 impl Texels {
@@ -55,18 +76,18 @@ impl Texels {
         let code = |x: f32| (x * 255.0).round();
         let is_code = |pixel: &Spectrum| pixel.to_array().iter().all(|&x| code(x) / 255.0 == x);
         let pixels = if !is_linear && image.pixels.iter().all(is_code) {
-            let codes = image.pixels.iter().map(|pixel| {
-                let [r, g, b] = pixel.to_array().map(|x| code(x) as u8);
+            let codes = |i: usize| {
+                let [r, g, b] = image.pixels[i].to_array().map(|x| code(x) as u8);
                 [r, g, b, 0]
-            });
+            };
             let meanings = std::array::from_fn(|code| curve.decode(code as f32 / 255.0));
-            Pixels::Codes(codes.collect(), Box::new(meanings))
+            Pixels::Codes(tiled(image.size, codes), Box::new(meanings))
         } else {
             let curve = if is_linear { Curve::Linear } else { curve };
-            let value = |pixel: &Spectrum| pixel.to_array().map(|code| curve.decode(code));
-            Pixels::Values(image.pixels.iter().map(value).collect())
+            let value = |i: usize| image.pixels[i].to_array().map(|code| curve.decode(code));
+            Pixels::Values(tiled(image.size, value))
         };
-        Self { size: image.size, pixels }
+        Self { size: image.size, tiles: image.size.x.div_ceil(4), pixels }
     }
 
     /// Columns and rows.
@@ -98,13 +119,14 @@ impl Texels {
     /// If there is no such pixel.
     #[inline]
     pub fn at(&self, x: u32, y: u32) -> Spectrum {
-        let index = y as usize * self.size.x as usize + x as usize;
+        let tile = (y / 4 * self.tiles + x / 4) as usize;
+        let within = (y % 4 * 4 + x % 4) as usize;
         match &self.pixels {
-            Pixels::Codes(codes, meanings) => {
-                let [r, g, b, _] = codes[index].map(|code| meanings[usize::from(code)]);
+            Pixels::Codes(tiles, meanings) => {
+                let [r, g, b, _] = tiles[tile].0[within].map(|code| meanings[usize::from(code)]);
                 Spectrum::new(r, g, b)
             }
-            Pixels::Values(values) => values[index].into(),
+            Pixels::Values(tiles) => tiles[tile].0[within].into(),
         }
     }
 }

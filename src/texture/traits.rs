@@ -12,6 +12,7 @@ use crate::spectrum::Spectrum;
 /// use lobe::MatteMaterial;
 /// use lobe::Spectrum;
 /// use lobe::interaction::SurfaceInteraction;
+/// use lobe::material::DetailedMaterial;
 /// use lobe::texture::Texture;
 ///
 /// /// Stripes along u, each of the given width.
@@ -24,7 +25,7 @@ use crate::spectrum::Spectrum;
 /// }
 ///
 /// let heights = |si: &SurfaceInteraction| Spectrum::splat(si.p().y.clamp(0.0, 1.0));
-/// let striped = MatteMaterial::new(heights).with_bump(Stripes(0.1));
+/// let striped = DetailedMaterial::new(MatteMaterial::new(heights)).with_bump(Stripes(0.1));
 /// ```
 pub trait Texture<T>: Send + Sync {
     /// The value at a hit. The interaction computes only the quantities that this method reads.

@@ -111,6 +111,6 @@ impl<'a> Wave<'a> {
         counters.camera_rays += rays.len() as u64;
         // The previous contents are overwritten.
         hits.resize(rays.len(), Hit::MISS);
-        scene.accel().intersect(rays, hits);
+        scene.intersect(rays, hits);
     }
 }

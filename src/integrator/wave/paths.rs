@@ -188,7 +188,7 @@ impl Paths {
         let rays = self.list.rays.as_slice();
         // The previous contents are overwritten.
         self.hits.resize(rays.len(), Hit::MISS);
-        scene.accel().intersect(rays, &mut self.hits);
+        scene.intersect(rays, &mut self.hits);
         rays.len() as u64
     }
 }

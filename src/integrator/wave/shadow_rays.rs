@@ -60,7 +60,7 @@ impl ShadowRays {
     pub fn trace(&mut self, scene: &Scene, radiance: &mut [Spectrum]) -> u64 {
         let rays = self.rays.as_slice();
         self.occluded.resize(rays.len(), false);
-        scene.accel().occluded(rays, &mut self.occluded);
+        scene.occluded(rays, &mut self.occluded);
         let count = rays.len() as u64;
         let carried = self.carried.as_slice();
         for ((&sample, &[r, g, b, _]), &occluded) in

@@ -6,7 +6,7 @@ use lobe::Spectrum;
 use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, LambertianReflection, OrenNayar};
 use lobe::glam::Vec3;
 use lobe::interaction::SurfaceInteraction;
-use lobe::material::{Material, MatteMaterial};
+use lobe::material::{DetailedMaterial, Material, MatteMaterial};
 use lobe::texture::{ConstantTexture, Texture};
 
 use crate::common::meshes::single;
@@ -89,7 +89,8 @@ fn reflectance_is_clamped() {
 #[test]
 fn bumps_reach_the_lobes() {
     // A slope of 1 along u, which is along x.
-    let bumpy = MatteMaterial::new([0.5; 3]).with_bump(Arc::new(OfU(|u| u)));
+    let matte = MatteMaterial::new([0.5; 3]);
+    let bumpy = DetailedMaterial::new(matte).with_bump(Arc::new(OfU(|u| u)));
     with_bsdf(&bumpy, |bsdf, si| {
         let n = Vec3::new(-1.0, 0.0, 1.0).normalize();
         assert!(bsdf.frame().n.distance(n) < 1e-3, "{}", bsdf.frame().n);
