@@ -23,7 +23,7 @@ impl<T> Texture<T> for OfU<T> {
 }
 
 /// The lobes of a material on a triangle in the plane z = 0, where u is 0.8.
-fn with_bsdf(material: &MatteMaterial, look: impl FnOnce(&Bsdf, &SurfaceInteraction)) {
+fn with_bsdf(material: &dyn Material, look: impl FnOnce(&Bsdf, &SurfaceInteraction)) {
     let mesh = single([Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0)]);
     let mut si = SurfaceInteraction::on_triangle(&mesh, 0, B, Vec3::Z);
     let arena = Arena::new();
