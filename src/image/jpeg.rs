@@ -22,7 +22,10 @@ fn open<R: BufRead + Seek>(source: R, length: u64, limit: u64) -> Result<JpegDec
 }
 
 fn unreadable(error: ImageError) -> String {
-    format!("it is not a JPEG file: {error}")
+    // The decoder's messages have several lines.
+    let error = error.to_string();
+    let words: Vec<_> = error.split_whitespace().collect();
+    format!("it is not a JPEG file: {}", words.join(" "))
 }
 
 /// Columns and rows.

@@ -156,11 +156,11 @@ fn set(material: &mut MtlMaterial, key: &str, rest: &str) -> Set {
         "pr" => number(&mut material.pr),
         "pm" => number(&mut material.pm),
         "illum" => match rest.parse() {
-            Ok(model) => {
+            Ok(model @ 0..=10) => {
                 material.illum = Some(model);
                 Set::Done
             }
-            Err(_) => Set::Unfit("a whole number from 0 to 10"),
+            _ => Set::Unfit("a whole number from 0 to 10"),
         },
         "map_kd" => map(&mut material.map_kd),
         "map_ke" => map(&mut material.map_ke),
@@ -169,6 +169,8 @@ fn set(material: &mut MtlMaterial, key: &str, rest: &str) -> Set {
         "map_pm" => map(&mut material.map_pm),
         "map_bump" | "bump" => map(&mut material.map_bump),
         "norm" | "map_norm" | "map_kn" => map(&mut material.norm),
+        // Light from nowhere, which path tracing has no use for.
+        "ka" | "map_ka" => Set::Done,
         _ => Set::Unknown,
     }
 }
