@@ -59,7 +59,8 @@ impl<'a> FaceMaterials<'a> {
     ) -> (SceneBuilder, usize) {
         let library = self.read(&faces.libraries);
         let indices = faces.of_triangles.iter().flat_map(|index| index.to_le_bytes());
-        let sum = crc32fast::hash(&indices.collect::<Vec<_>>());
+        let names = faces.names.iter().flat_map(|name| name.bytes().chain([b'\n']));
+        let sum = crc32fast::hash(&indices.chain(names).collect::<Vec<_>>());
         self.found
             .identity
             .push(format!("materials of triangles of {} = {sum:08x}", quoted(shape)));

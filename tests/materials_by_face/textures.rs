@@ -14,7 +14,7 @@ use crate::{folder, write, write_image};
 fn scene(folder: &Path, textures: &str) -> Result<lobe::scene_file::LoadedScene, String> {
     let text = format!(
         "{textures}\n[material.m]\ntype = \"matte\"\nkd = \"kd\"\n[shape.wall]\ntype = \"rectangle\"\n\
-         corner = [0, 0, 0]\nedges = [[0, 1, 0], [1, 0, 0]]\nmaterial = \"m\"\n"
+         corner = [0, 0, 0]\nedges = [[1, 0, 0], [0, 1, 0]]\nmaterial = \"m\"\n"
     );
     parse_scene(&folder.join("s.toml"), &text, &[]).map_err(|error| {
         error.to_string().replace(&format!("{}{}", folder.display(), std::path::MAIN_SEPARATOR), "")
@@ -151,7 +151,7 @@ fn wrong_textures_are_refused() {
         ),
         (
             "type = \"image\"\nfile = \"good.pfm\"\nwarp = 1",
-            "4:1: unknown key `warp` in [texture.kd]; did you mean `wrap`?",
+            "4:1: unknown key `warp` in [texture.kd] of type \"image\"; did you mean `wrap`?",
         ),
         (
             "type = \"image\"\nfile = \"good.pfm\"\nwrap = \"tile\"",
