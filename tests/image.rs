@@ -2,10 +2,12 @@
 //! tests/output.rs compares them with other programs.
 
 mod folders;
+mod jpeg_file;
 
 use std::fs;
 use std::path::PathBuf;
 
+use jpeg_file::JpegFile;
 use lobe::Spectrum;
 use lobe::glam::UVec2;
 use lobe::image::{
@@ -107,6 +109,69 @@ fn decoding_is_exact_at_all_codes() {
     }
 }
 
+/// Grey is read as it is, luma and chroma by the equations of JFIF (Rec. 601), and of Adobe's files with four components, ink is absent
+/// light. One by one, in units of several blocks, progressive, and with restarts. Seen to fail with chroma exchanged, and with three
+/// components of Adobe's transform 0 taken for luma and chroma.
+#[test]
+fn jpeg_has_codes_in_all_its_kinds() {
+    let rgb = |y: f64, cb: f64, cr: f64| {
+        let (cb, cr) = (cb - 128.0, cr - 128.0);
+        [y + 1.402 * cr, y - 0.344136 * cb - 0.714136 * cr, y + 1.772 * cb]
+    };
+    let cases: [(&[(u8, u8)], Option<u8>, [f64; 3]); 6] = [
+        (&[(77, 1)], None, [77.0; 3]),
+        (&[(200, 2)], None, [200.0; 3]),
+        (&[(120, 1), (100, 1), (150, 1)], None, rgb(120.0, 100.0, 150.0)),
+        (&[(120, 2), (160, 1), (90, 1)], Some(1), rgb(120.0, 160.0, 90.0)),
+        (&[(10, 1), (128, 1), (250, 1)], Some(0), [10.0, 128.0, 250.0]),
+        (&[(255, 1), (128, 1), (51, 1), (255, 1)], Some(0), [255.0, 128.0, 51.0]),
+    ];
+    let file = path("x.JPG");
+    for (components, adobe, expected) in cases {
+        for size in [[8, 8], [1, 1], [17, 9], [3, 40]] {
+            for (is_progressive, restart) in [(false, 0), (true, 0), (false, 1), (true, 2)] {
+                let jpeg = JpegFile { size, components, is_progressive, restart, adobe };
+                fs::write(&file, jpeg.bytes()).unwrap();
+                let image = Image::read(&file).unwrap_or_else(|error| {
+                    panic!("{components:?} {size:?} {is_progressive} {restart}: {error}")
+                });
+                assert_eq!(image.size, UVec2::from(size.map(u32::from)));
+                assert_eq!((image.encoding, &image.variance), (Encoding::Srgb, &None));
+                for pixel in image.pixels {
+                    let codes = pixel.to_array().map(|band| f64::from(band) * 255.0);
+                    let is_near = codes.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1.51);
+                    assert!(
+                        is_near,
+                        "{components:?} {size:?} {is_progressive} {restart}: {codes:?}, expected {expected:?}"
+                    );
+                    assert!(codes.iter().all(|code| (code - code.round()).abs() < 1e-4));
+                }
+            }
+        }
+    }
+}
+
+/// A picture of another program, in which every pixel differs: rows from the top, columns from the left.
+/// Seen to fail with rows and columns exchanged.
+#[test]
+fn jpeg_of_another_encoder() {
+    let (width, height) = (37_u32, 21_u32);
+    let code = |x: u32, y: u32| [5 * x + 20, 8 * y + 30, 2 * x + 3 * y].map(|code| code as u8);
+    let codes: Vec<u8> =
+        (0..height).flat_map(|y| (0..width).flat_map(move |x| code(x, y))).collect();
+    let mut bytes = Vec::new();
+    ::image::codecs::jpeg::JpegEncoder::new_with_quality(&mut bytes, 100)
+        .encode(&codes, width, height, ::image::ExtendedColorType::Rgb8)
+        .unwrap();
+    let image = Image::parse("a.jpeg", &bytes, 1 << 20).unwrap();
+    assert_eq!(image.size, UVec2::new(width, height));
+    for (index, (pixel, codes)) in image.pixels.iter().zip(codes.chunks(3)).enumerate() {
+        let found = pixel.to_array().map(|band| (255.0 * band).round() as i32);
+        let is_near = found.iter().zip(codes).all(|(a, b)| (a - i32::from(*b)).abs() <= 4);
+        assert!(is_near, "pixel {index}: {found:?}, expected {codes:?}");
+    }
+}
+
 /// Other programs write one band, and big-endian numbers. Caught: the byte order exchanged.
 #[test]
 fn pfm_of_other_programs() {
@@ -120,7 +185,7 @@ fn pfm_of_other_programs() {
 /// Caught: a product of the sides that leaves 64 bits; a side of 0; any magic word; colours not looked for.
 #[test]
 fn what_is_no_image_is_refused() {
-    let cases: [(&str, &[u8], &str); 9] = [
+    let cases: [(&str, &[u8], &str); 12] = [
         ("bad.pfm", b"P6\n2 2\n255\n", "it is not a PFM file: it begins with `P6`, not PF or Pf"),
         ("bad.pfm", b"PF\n2 ", "it ends within its header"),
         (
@@ -136,6 +201,9 @@ fn what_is_no_image_is_refused() {
             "2147483647 x 2147483647 pixels need 55340232169589047308 bytes, not 0",
         ),
         ("bad.png", b"PF\n", "it is not a PNG file: "),
+        ("bad.jpg", b"PF\n", "it is not a JPEG file: "),
+        ("bad.jpeg", b"", "it is not a JPEG file: "),
+        ("bad.jpg", b"\xFF\xD8\xFF\xE0\0\x10JFIF", "it is not a JPEG file: "),
         ("bad.exr", b"PF\n", "it is not a readable EXR file: "),
         ("bad.tif", b"", "its name has to end in .exr, .jpg, .jpeg, .pfm or .png"),
     ];

@@ -1,11 +1,13 @@
 //! Images that are refused: by the memory that they would take, because something is missing, or for what their path names.
 
 mod exr_file;
+mod jpeg_file;
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use exr_file::ExrFile;
+use jpeg_file::JpegFile;
 use lobe::image::{Image, ImageFile};
 
 const RGB: [&str; 3] = ["B", "G", "R"];
@@ -73,6 +75,77 @@ fn codes_of_png_files_count() {
     assert_eq!(Image::parse("a.png", &file, least).unwrap().pixels.len(), 1 << 20);
     let expected = "1024 x 1024 pixels take 18 MiB of memory, above the limit of 17 MiB";
     assert_eq!(reason("a.png", &file, least - 1), expected);
+}
+
+const JPEG: JpegFile<'static> = JpegFile {
+    size: [40, 30],
+    components: &[(90, 1)],
+    is_progressive: false,
+    restart: 0,
+    adobe: None,
+};
+
+/// The file, its coefficients, codes and pixels of a JPEG file count. Seen to fail with each of them left out.
+#[test]
+fn codes_and_coefficients_of_jpeg_files_count() {
+    let colors = [(90, 2), (100, 1), (100, 1)];
+    for (components, bands) in [(&JPEG.components[..], 1), (&colors[..], 3)] {
+        let file = JpegFile { size: [1024, 512], components, ..JPEG }.bytes();
+        let least = (16 + 8 + bands) * (1 << 19) + file.len() as u64;
+        assert_eq!(Image::parse("a.jpg", &file, least).unwrap().pixels.len(), 1 << 19);
+        let [takes, limit] = [least.div_ceil(1 << 20), least >> 20];
+        let expected =
+            format!("1024 x 512 pixels take {takes} MiB of memory, above the limit of {limit} MiB");
+        assert_eq!(reason("a.jpg", &file, least - 1), expected);
+    }
+    // Some hundred bytes that promise the largest picture.
+    let file = JpegFile { size: [65535; 2], components: &colors, ..JPEG }.head();
+    let expected = "65535 x 65535 pixels take 110589 MiB of memory, above the limit of 4096 MiB";
+    assert_eq!(reason("a.jpg", &file, Image::DEFAULT_LIMIT), expected);
+}
+
+/// What is missing was grey. Wherever the file ends, it is refused; what follows its end marker does not matter, nor does a picture
+/// within a segment. Seen to fail with files taken as they are, with the markers of segments counted as the end, and with the
+/// stuffed zero taken for a marker.
+#[test]
+fn incomplete_jpeg_files_are_refused() {
+    // Ones in the scan, so that zeros are stuffed.
+    let colors = [(0, 1), (255, 1), (255, 1)];
+    for jpeg in [
+        JPEG,
+        JpegFile { components: &colors, ..JPEG },
+        JpegFile { is_progressive: true, restart: 2, ..JPEG },
+    ] {
+        let (whole, head) = (jpeg.bytes(), jpeg.head().len());
+        for end in head..whole.len() {
+            let expected = "it is incomplete: it has no end marker";
+            assert_eq!(
+                reason("a.jpg", &whole[..end], 1 << 20),
+                expected,
+                "{end} of {}",
+                whole.len()
+            );
+        }
+        for end in 0..head {
+            let reason = reason("a.jpg", &whole[..end], 1 << 20);
+            assert!(
+                reason.starts_with("it is not a JPEG file: ")
+                    || reason.starts_with("it is incomplete: "),
+                "{end}: {reason}"
+            );
+        }
+        // A thumbnail in a segment has an end marker of its own.
+        let thumbnail = JPEG.bytes();
+        let segment =
+            [&[0xFF, 0xE1][..], &(thumbnail.len() as u16 + 2).to_be_bytes(), &thumbnail].concat();
+        let with_thumbnail = [&whole[..2], &segment, &whole[2..]].concat();
+        let image = Image::parse("a.jpg", &with_thumbnail, 1 << 20).unwrap();
+        assert_eq!(image, Image::parse("a.jpg", &whole, 1 << 20).unwrap());
+        let cut = &with_thumbnail[..with_thumbnail.len() - 1];
+        assert_eq!(reason("a.jpg", cut, 1 << 20), "it is incomplete: it has no end marker");
+        let padded = [&whole[..], &[0; 100]].concat();
+        assert_eq!(image, Image::parse("a.jpg", &padded, 1 << 20).unwrap());
+    }
 }
 
 /// A header of many attributes takes far more memory than it has bytes. Seen to fail with headers of any length.
@@ -183,6 +256,7 @@ fn only_ordinary_files_are_read() {
         (pipe, unusual),
         (folder.join("device.pfm"), unusual),
         (short.clone(), unusual),
+        (folder.join("no.jpeg"), "there is no such file"),
         (folder.join("folder.exr"), "it is a folder; give the name of a file in it"),
         (folder.join("missing.exr"), "there is no such file"),
         (folder.join("link.pfm"), "there is no such file"),

@@ -326,7 +326,10 @@ fn missing_keys() {
             "[material.\"\"]\nkd = [0, 0, 0]",
             "s.toml:1:1: [material.\"\"] lacks `type`, expected \"matte\", \"mirror\", \"glass\", \"thin-glass\", \"metal\", \"plastic\", \"translucent\", \"retro\" or \"mix\"",
         ),
-        ("[texture.t]", "s.toml:1:1: [texture.t] lacks `type`, expected \"constant\""),
+        (
+            "[texture.t]",
+            "s.toml:1:1: [texture.t] lacks `type`, expected \"constant\", \"image\", \"product\" or \"mix\"",
+        ),
         (
             "\n[texture.t]\ntype = \"constant\"",
             "s.toml:2:1: [texture.t] lacks `value`, expected a number or [red, green, blue], all finite",
@@ -364,9 +367,11 @@ fn missing_keys() {
             "s.toml:1:1: [shape.s] lacks `obj`, expected a text in quotes",
         ),
         (
-            "[shape.s]\nobj = \"a.obj\"",
+            "[shape.s]\ntype = \"rectangle\"\ncorner = [0, 0, 0]\nedges = [[1, 0, 0], [0, 1, 0]]",
             "s.toml:1:1: [shape.s] lacks `material`, expected a text in quotes",
         ),
+        // Its faces may name materials.
+        ("[shape.s]\nobj = \"a.obj\"", "s.toml:2:7: a.obj: there is no such file"),
     ]);
 }
 

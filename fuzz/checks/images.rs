@@ -10,6 +10,10 @@ pub fn exr(bytes: &[u8]) {
     read("fuzz.exr", bytes);
 }
 
+pub fn jpeg(bytes: &[u8]) {
+    read("fuzz.jpg", bytes);
+}
+
 pub fn pfm(bytes: &[u8]) {
     read("fuzz.pfm", bytes);
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{Affine3A, Quat, UVec2};
 
-use super::faces::FaceMaterials;
+use super::faces::{FaceMaterials, Found};
 use super::sections::{self, SECTIONS};
 use crate::accel::InstructionSet;
 use crate::camera::Camera;
@@ -24,7 +24,7 @@ pub struct Description {
     view: View,
     pub settings: RenderSettings,
     pub materials: Vec<(String, Arc<dyn Material>)>,
-    textures: Textures,
+    pub textures: Textures,
     lights: Vec<Arc<dyn Light>>,
     shapes: Vec<(String, Shape)>,
 }
@@ -143,12 +143,22 @@ fn shape(table: Table) -> Result<Shape, Fault> {
     })
 }
 
+/// A scene whose meshes are loaded.
+pub struct Built {
+    pub scene: Scene,
+    pub view: View,
+    pub settings: RenderSettings,
+    /// About each mesh, in the order of [`Scene::shapes`].
+    pub reports: Vec<ObjReport>,
+    pub faces: Found,
+}
+
 /// Looks up materials, loads the meshes and builds the scene.
 pub fn build(
     description: Description,
     document: &Document,
     instruction_set: InstructionSet,
-) -> Result<(Scene, View, RenderSettings, Vec<ObjReport>, Vec<String>), Fault> {
+) -> Result<Built, Fault> {
     let Description { view, settings, materials, textures, lights, shapes } = description;
     let fault = |error: SceneError| {
         let keys = match &error {
@@ -173,20 +183,25 @@ pub fn build(
         .into_iter()
         .fold(builder, |builder, (name, material)| builder.material(name, material));
     let mut reports = Vec::with_capacity(shapes.len());
-    let mut faces = FaceMaterials { known: &by_name, textures: &textures, notes: Vec::new() };
+    let mut faces = FaceMaterials::new(&by_name, &textures);
     for (name, Shape { load, material, missing, emission, transform }) in shapes {
         let ObjMesh { mut mesh, report, materials } = load()?;
         reports.push(report);
         mesh.transform(&transform);
         let names_some = !materials.of_triangles.is_empty() && emission.is_none();
         builder = match (material, missing) {
-            (None, _) if names_some => faces.add(builder, &name, &mesh, &materials),
+            (None, _) if names_some => {
+                let (builder, count) = faces.add(builder, &name, &mesh, &materials);
+                // What is odd about the file is said once.
+                reports.resize(reports.len() + count - 1, ObjReport::default());
+                builder
+            }
             (None, Some(missing)) => return Err(missing),
             (material, _) => {
                 builder.add_shape(name, mesh, material.map(|(name, _)| name), emission)
             }
         };
     }
-    let notes = faces.notes;
-    Ok((builder.build().map_err(fault)?, view, settings, reports, notes))
+    let faces = faces.found;
+    Ok(Built { scene: builder.build().map_err(fault)?, view, settings, reports, faces })
 }

@@ -28,7 +28,10 @@ use crate::params::{Document, Fault, Mark};
 use crate::render::RenderSettings;
 use crate::scene::{Scene, View};
 use crate::shape::ObjReport;
+use crate::texture::Textures;
+use assemble::Built;
 use document::Source;
+use faces::Found;
 
 /// A scene, view and settings from a file.
 pub struct LoadedScene {
@@ -41,6 +44,8 @@ pub struct LoadedScene {
     /// Load time and warnings about meshes.
     pub report: LoadReport,
     materials: Vec<(String, Arc<dyn Material>)>,
+    textures: Textures,
+    faces: Found,
     document: Document,
 }
 
@@ -50,15 +55,16 @@ impl LoadedScene {
         self.materials.iter().map(|(name, material)| (name.as_str(), &**material))
     }
 
-    /// The files that the scene refers to. The scene file is not among them.
+    /// The files that the scene refers to, with those that they refer to: MTL files and images. The scene file is not among them.
     pub fn files(&self) -> Vec<PathBuf> {
-        self.document.files()
+        let images = self.textures.images().into_iter().map(|(file, ..)| file);
+        self.document.files().into_iter().chain(self.faces.files.clone()).chain(images).collect()
     }
 
-    /// What is rendered, as lines `key = value`: the version of this crate, all values of the file and the overrides, and a
-    /// checksum of each mesh. Renders of equal identity give the same picture for the same samples.
+    /// What is rendered, as lines `key = value`: the version of this crate, all values of the file and the overrides, and
+    /// checksums of each mesh, each image and the materials of faces. Renders of equal identity give the same picture for the same samples.
     pub fn identity(&self) -> Vec<String> {
-        identity::lines(&self.document, &self.scene)
+        identity::lines(&self.document, &self.scene, &self.textures, &self.faces.identity)
     }
 }
 
@@ -70,7 +76,7 @@ pub struct LoadReport {
     pub seconds: f64,
     /// Warnings about each mesh, in the order of [`Scene::shapes`].
     pub meshes: Vec<ObjReport>,
-    /// What was left out of MTL files, with file and line.
+    /// What was left out of MTL files, with file and line, and faces without a material.
     pub notes: Vec<String>,
 }
 
@@ -190,10 +196,10 @@ fn parse_for(
     let source = Source::new(path, text, overrides);
     let document = source.parse()?;
     let description = source.place(assemble::describe(&document))?;
-    let materials = description.materials.clone();
-    let (scene, view, settings, meshes, notes) =
-        source.place(assemble::build(description, &document, instruction_set))?;
+    let (materials, textures) = (description.materials.clone(), description.textures.clone());
+    let built = source.place(assemble::build(description, &document, instruction_set))?;
+    let Built { scene, view, settings, reports, faces } = built;
     let seconds = start.seconds() - scene.build_seconds();
-    let report = LoadReport { seconds, meshes, notes };
-    Ok(LoadedScene { scene, view, settings, report, materials, document })
+    let report = LoadReport { seconds, meshes: reports, notes: faces.notes.clone() };
+    Ok(LoadedScene { scene, view, settings, report, materials, textures, faces, document })
 }

@@ -102,17 +102,20 @@ impl ImageTexture {
             return Spectrum::BLACK;
         }
         let ([wrap_s, wrap_t], size) = (self.wrap, self.texels.size());
-        // From the top left corner.
-        let (s, t) = (wrap_s.folded(st.x), 1.0 - wrap_t.folded(st.y));
+        let (s, t) = (wrap_s.folded(st.x), wrap_t.folded(st.y));
+        // Rows count from the top.
+        let last = size.y - 1;
         match self.magnification {
             Magnification::Nearest => {
-                let index = |at: f32, count: u32| ((at * count as f32) as u32).min(count - 1);
-                self.texels.at(index(s, size.x), index(t, size.y))
+                let index = |at: f32, count: u32| {
+                    ((f64::from(at) * f64::from(count)) as u32).min(count - 1)
+                };
+                self.texels.at(index(s, size.x), last - index(t, size.y))
             }
             Magnification::Bilinear => {
                 let (x, part_x) = wrap_s.neighbours(s, size.x);
-                let (y, part_y) = wrap_t.neighbours(t, size.y);
-                self.texels.between(x, y, [part_x, part_y])
+                let ([below, above], part_y) = wrap_t.neighbours(t, size.y);
+                self.texels.between(x, [last - below, last - above], [part_x, part_y])
             }
         }
     }
@@ -135,18 +138,19 @@ impl Wrap {
     /// The two pixels whose centres are next to a coordinate in `[0, 1]`, of `count` in a row, and the weight of the second.
     #[inline]
     fn neighbours(self, s: f32, count: u32) -> ([u32; 2], f32) {
-        let at = s * count as f32 - 0.5;
+        // In f64, as wide images have more columns than f32 tells apart.
+        let at = f64::from(s) * f64::from(count) - 0.5;
         let last = count - 1;
         if at < 0.0 {
             let before = if self == Self::Repeat { last } else { 0 };
-            return ([before, 0], at + 1.0);
+            return ([before, 0], (at + 1.0) as f32);
         }
         let first = (at as u32).min(last);
         let second = match self {
             Self::Repeat if first == last => 0,
             _ => (first + 1).min(last),
         };
-        ([first, second], at - first as f32)
+        ([first, second], (at - f64::from(first)) as f32)
     }
 }
 

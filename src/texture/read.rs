@@ -1,6 +1,7 @@
 //! [`TextureKey`] and [`Textures`]: how scene files refer to textures.
 
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -126,7 +127,7 @@ pub struct Textures {
     images: Arc<Mutex<Images>>,
 }
 
-/// Images that were decoded, by file and curve.
+/// Images that were decoded, by canonical path and curve.
 type Images = BTreeMap<(PathBuf, Curve), Arc<Texels>>;
 
 impl Textures {
@@ -135,19 +136,31 @@ impl Textures {
         self.named.insert(name.into(), texture);
     }
 
-    /// The pixels of an image file, which is read once for each curve.
+    /// The pixels of an image file, which is read once for each curve, by whatever path.
     ///
     /// # Errors
-    /// Those of [`Image::read`].
+    /// Those of [`Image::read`], and if a value is negative or not finite.
     pub fn image(&self, file: &Path, curve: Curve) -> Result<Arc<Texels>, ReadError> {
         let mut images = self.images.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = (file.to_owned(), curve);
+        let key = (fs::canonicalize(file).unwrap_or_else(|_| file.to_owned()), curve);
         if let Some(known) = images.get(&key) {
             return Ok(known.clone());
         }
-        let texels = Arc::new(Texels::new(&Image::read(file)?, curve));
+        let image = Image::read(file)?;
+        Texels::check(&image)
+            .map_err(|reason| ReadError::Contents { path: file.to_owned(), reason })?;
+        let texels = Arc::new(Texels::new(&image, curve));
         images.insert(key, texels.clone());
         Ok(texels)
+    }
+
+    /// All images that were read: the file, what its codes mean, and the pixels.
+    pub fn images(&self) -> Vec<(PathBuf, Curve, Arc<Texels>)> {
+        let images = self.images.lock().unwrap_or_else(PoisonError::into_inner);
+        images
+            .iter()
+            .map(|((file, curve), texels)| (file.clone(), *curve, texels.clone()))
+            .collect()
     }
 
     /// The texture that the key's value names, or a constant texture if the value is a number or a colour.

@@ -11,6 +11,12 @@ fn exr() {
     drive("exr", checks::exr);
 }
 
+/// Seen to fail with the decoder's messages as they are, which have several lines.
+#[test]
+fn jpeg() {
+    drive("jpeg", checks::jpeg);
+}
+
 /// Seen to fail with sides of 0: a division of rows by zero.
 #[test]
 fn pfm() {

@@ -70,6 +70,9 @@ impl Summary {
             warn(odd.short_faces, "faces with fewer than 3 corners");
             warn(odd.unknown_lines, "lines with an unknown keyword");
         }
+        for note in &report.notes {
+            self.add("warning", note.clone());
+        }
         if scene.shapes().next().is_none() {
             self.add("warning", "the scene has no shapes");
         }

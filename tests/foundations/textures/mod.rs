@@ -1,5 +1,9 @@
 //! What implements `Texture`, and how materials store it.
 
+mod combined;
+mod lookups;
+mod mappings;
+
 use std::sync::Arc;
 
 use lobe::bxdf::{Arena, BxdfFlags};

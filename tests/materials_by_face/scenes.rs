@@ -1,0 +1,266 @@
+//! Scenes whose faces name their materials.
+
+use std::f64::consts::PI;
+use std::fs;
+use std::path::Path;
+
+use lobe::bxdf::{Arena, BxdfFlags};
+use lobe::geometry::Ray;
+use lobe::glam::{Vec2, Vec3};
+use lobe::integrator::PathIntegrator;
+use lobe::scene::{FilmSettings, View};
+use lobe::scene_file::{LoadedScene, read_scene};
+use lobe::{PerspectiveSettings, RenderOptions, RenderSettings, Scene, render};
+
+use crate::{folder, without_folder, write};
+
+/// Five squares side by side in the plane z = 0, which face -z: square i is from x = i to i + 1.
+fn squares(materials: [&str; 5]) -> String {
+    let mut text = String::from("mtllib m.mtl\n");
+    for i in 0..5 {
+        text += &format!("v {i} 0 0\nv {i} 1 0\nv {} 1 0\nv {} 0 0\n", i + 1, i + 1);
+    }
+    for (i, material) in materials.iter().enumerate() {
+        let v = 4 * i + 1;
+        text += &format!("{material}\nf {v} {} {} {}\n", v + 1, v + 2, v + 3);
+    }
+    text
+}
+
+const MTL: &str =
+    "newmtl red\nKd 0.75 0.25 0.125\nnewmtl mine\nKd 0.1\nnewmtl lamp\nKd 0.5\nKe 30 20 10\n";
+const MATERIALS: [&str; 5] = ["", "usemtl red", "usemtl mine", "usemtl lost", "usemtl lamp"];
+
+fn load(folder: &Path, text: &str) -> LoadedScene {
+    write(folder, "s.toml", text);
+    read_scene(&folder.join("s.toml"), &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// π f in the middle of a square.
+fn seen(scene: &Scene, square: usize) -> [f32; 3] {
+    let ray = Ray::new(Vec3::new(square as f32 + 0.4, 0.3, -1.0), Vec3::Z);
+    let hit = scene.accel().intersect1(&ray);
+    assert!(hit.is_hit(), "square {square}");
+    let (mut si, arena) = (scene.interaction(&ray, &hit), Arena::new());
+    let bsdf = scene.bsdf(&hit, &mut si, &arena);
+    let f = bsdf.f(-Vec3::Z, -Vec3::Z, BxdfFlags::all()).to_array();
+    f.map(|f| (f64::from(f) * PI) as f32)
+}
+
+#[track_caller]
+fn assert_seen(scene: &Scene, expected: [[f32; 3]; 5]) {
+    for (square, expected) in expected.into_iter().enumerate() {
+        let found = seen(scene, square);
+        let is_near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6);
+        assert!(is_near, "square {square}: {found:?}, expected {expected:?}");
+    }
+}
+
+const RED: [f32; 3] = [0.75, 0.25, 0.125];
+
+/// Of the scene file by name, else of the MTL file, else grey. Seen to fail with the scene's materials after those of the MTL file, with
+/// materials by the order of their triangles, and with the emission of one lost.
+#[test]
+fn faces_have_the_materials_that_they_name() {
+    let folder = folder("scenes-names");
+    write(&folder, "m.obj", squares(MATERIALS));
+    write(&folder, "m.mtl", MTL);
+    let own = "[material.mine]\ntype = \"matte\"\nkd = [0, 1, 0]\n";
+    let loaded = load(&folder, &format!("{own}[shape.s]\nobj = \"m.obj\"\n"));
+    assert_seen(&loaded.scene, [[0.5; 3], RED, [0.0, 1.0, 0.0], [0.5; 3], [0.5; 3]]);
+    assert_eq!(
+        loaded.report.notes,
+        [
+            "shape \"s\": there is no material \"lost\"; its faces are grey",
+            "shape \"s\": 2 triangles name no material and are grey",
+        ]
+    );
+    let shapes: Vec<_> =
+        loaded.scene.shapes().map(|(name, mesh)| (name, mesh.indices.len())).collect();
+    assert_eq!(shapes, [("s", 8), ("s/lamp", 2)]);
+    assert_eq!(loaded.report.meshes.len(), 2);
+
+    // Without an MTL file all are grey but the scene's, and each name is noted once.
+    fs::remove_file(folder.join("m.mtl")).unwrap();
+    write(
+        &folder,
+        "m.obj",
+        squares(["usemtl red", "usemtl mine", "usemtl red", "usemtl lost", "usemtl red"]),
+    );
+    let loaded = load(&folder, &format!("{own}[shape.s]\nobj = \"m.obj\"\n"));
+    assert_seen(&loaded.scene, [[0.5; 3], [0.0, 1.0, 0.0], [0.5; 3], [0.5; 3], [0.5; 3]]);
+    assert_eq!(
+        without_folder(&loaded.report.notes, &folder),
+        [
+            "m.mtl: there is no such file",
+            "shape \"s\": there is no material \"red\"; its faces are grey",
+            "shape \"s\": there is no material \"lost\"; its faces are grey",
+        ]
+    );
+    assert!(loaded.scene.lights().is_empty());
+}
+
+/// Notes of the MTL file have its name and line. Seen to fail with lines of the material's keys for the material's own.
+#[test]
+fn notes_name_file_and_line() {
+    let folder = folder("scenes-notes");
+    write(
+        &folder,
+        "m.obj",
+        squares(["usemtl red", "usemtl red", "usemtl lamp", "usemtl red", "usemtl red"]),
+    );
+    write(
+        &folder,
+        "m.mtl",
+        format!("{MTL}shine 3\nmap_Kd no.png\nd 0.5\nnewmtl unused\nmap_Kd no.png\n"),
+    );
+    let loaded = load(&folder, "[shape.s]\nobj = \"m.obj\"\n");
+    assert_eq!(
+        without_folder(&loaded.report.notes, &folder),
+        [
+            "m.mtl:8: the key `shine` is not known",
+            "m.mtl:5: material \"lamp\": cannot read `no.png`: there is no such file",
+            "m.mtl:5: material \"lamp\": d is not used yet",
+        ]
+    );
+}
+
+/// Of several libraries the first with the name holds. Seen to fail with the last.
+#[test]
+fn the_first_library_holds() {
+    let folder = folder("scenes-libraries");
+    let obj =
+        squares(["usemtl red"; 5]).replace("mtllib m.mtl", "mtllib no.mtl\nmtllib a/m.mtl m.mtl");
+    write(&folder, "m.obj", obj);
+    write(&folder, "m.mtl", MTL);
+    write(&folder, "a/m.mtl", "newmtl red\nKd 1 0 0\nnewmtl red\nKd 0 0 1\n");
+    let loaded = load(&folder, "[shape.s]\nobj = \"m.obj\"\n");
+    assert_seen(&loaded.scene, [[1.0, 0.0, 0.0]; 5]);
+    assert_eq!(
+        without_folder(&loaded.report.notes, &folder),
+        [
+            "no.mtl: there is no such file",
+            "a/m.mtl:3: material `red` stands there twice; the first one holds"
+        ]
+    );
+}
+
+/// A shape's own material or emission is that of all faces. Seen to fail with faces first.
+#[test]
+fn a_shape_overrides_its_faces() {
+    let folder = folder("scenes-shapes");
+    write(&folder, "m.obj", squares(MATERIALS));
+    write(&folder, "m.mtl", format!("{MTL}junk\n"));
+    let own = "[material.own]\ntype = \"matte\"\nkd = [0, 0, 1]\n[shape.s]\nobj = \"m.obj\"\n";
+    let loaded = load(&folder, &format!("{own}material = \"own\"\n"));
+    assert_seen(&loaded.scene, [[0.0, 0.0, 1.0]; 5]);
+    assert_eq!((loaded.report.notes.len(), loaded.scene.lights().len()), (0, 0));
+    for (rest, color) in [("", 0.0), ("material = \"own\"\n", 1.0)] {
+        let loaded = load(&folder, &format!("{own}{rest}emission = [1, 2, 3]\n"));
+        assert_seen(&loaded.scene, [[0.0, 0.0, color]; 5]);
+        assert_eq!((loaded.scene.lights().len(), loaded.scene.shapes().count()), (1, 1));
+    }
+}
+
+/// Materials of the MTL file never take the place of others, whatever their names are. Seen to fail with names joined by a slash alone.
+#[test]
+fn equal_names_are_told_apart() {
+    let folder = folder("scenes-equal");
+    for (name, material, kd) in
+        [("a", "b/red", "1 0 0"), ("b", "red", "0 1 0"), ("c", "b", "0 0 1")]
+    {
+        let usemtl = format!("usemtl {material}");
+        let obj = squares([&usemtl; 5]).replace("m.mtl", &format!("{name}.mtl"));
+        write(&folder, &format!("{name}.obj"), obj);
+        write(&folder, &format!("{name}.mtl"), format!("newmtl {material}\nKd {kd}\n"));
+    }
+    let shape = |name: &str, obj: &str, y: i32| {
+        format!("[shape.{name:?}]\nobj = \"{obj}.obj\"\ntranslate = [0, {y}, 0]\n")
+    };
+    let text = format!(
+        "[material.\"x/b/red\"]\ntype = \"matte\"\nkd = [1, 1, 1]\n{}{}{}[shape.w]\nobj = \"c.obj\"\nmaterial = \"x/b/red\"\ntranslate = [0, 3, 0]\n",
+        shape("x", "a", 0),
+        shape("x/b", "b", 1),
+        shape("z", "c", 2)
+    );
+    let scene = load(&folder, &text).scene;
+    for (row, expected) in
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]].into_iter().enumerate()
+    {
+        let ray = Ray::new(Vec3::new(0.4, row as f32 + 0.3, -1.0), Vec3::Z);
+        let hit = scene.accel().intersect1(&ray);
+        let (mut si, arena) = (scene.interaction(&ray, &hit), Arena::new());
+        let f =
+            scene.bsdf(&hit, &mut si, &arena).f(-Vec3::Z, -Vec3::Z, BxdfFlags::all()).to_array();
+        let found = f.map(|f| (f64::from(f) * PI).round());
+        assert_eq!(found, expected, "row {row}");
+    }
+}
+
+/// A shape without any material lacks one. Seen to fail with meshes that name none taken for grey.
+#[test]
+fn a_shape_without_materials_is_refused() {
+    let folder = folder("scenes-none");
+    write(&folder, "m.obj", squares([""; 5]));
+    write(&folder, "s.toml", "[shape.s]\nobj = \"m.obj\"\n");
+    let error = read_scene(&folder.join("s.toml"), &[]).err().unwrap().to_string();
+    let expected = "s.toml:1:1: [shape.s] lacks `material`, expected a text in quotes";
+    assert_eq!(without_folder(&[error], &folder), [expected]);
+}
+
+/// Faces with `Ke` are lamps on both sides, and scatter light as their material says: a ray sees Ke, and a point in front of a small
+/// lamp has the irradiance Ke A cos θ cos θ' / d². Seen to fail with one side dark, and with the lamp's triangles counted twice.
+#[test]
+fn faces_with_ke_are_lamps() {
+    let folder = folder("scenes-lamps");
+    write(&folder, "m.obj", squares(MATERIALS));
+    write(&folder, "m.mtl", MTL);
+    let scene = load(
+        &folder,
+        "[material.lamp]\ntype = \"matte\"\nkd = [0, 1, 0]\n[shape.s]\nobj = \"m.obj\"\n",
+    )
+    .scene;
+    // The scene's own material of that name reflects; the emission stays.
+    assert_seen(&scene, [[0.5; 3], RED, [0.1; 3], [0.5; 3], [0.0, 1.0, 0.0]]);
+    let [lamp] = scene.lights() else { panic!("{} lights", scene.lights().len()) };
+    for side in [-1.0, 1.0] {
+        let p = Vec3::new(4.5, 0.5, 400.0 * side);
+        let sample = lamp.sample_li(p, Vec2::new(0.3, 0.6)).unwrap();
+        assert_eq!(sample.li.to_array(), [30.0, 20.0, 10.0]);
+        let irradiance = sample.li.to_array()[0] * sample.wi.z.abs() / sample.pdf;
+        assert!((irradiance / (30.0 / 160_000.0) - 1.0).abs() < 1e-4, "{irradiance}");
+    }
+    for (z, square, expected) in
+        [(-3.0, 4.5, [30.0, 20.0, 10.0]), (3.0, 4.5, [30.0, 20.0, 10.0]), (-3.0, 1.5, [0.0; 3])]
+    {
+        let camera = PerspectiveSettings {
+            eye: Vec3::new(square, 0.5, z),
+            look_at: Vec3::new(square, 0.5, 0.0),
+            fov: 5.0,
+            ..PerspectiveSettings::default()
+        };
+        let view = View::perspective(&camera, FilmSettings::new(4, 4)).unwrap();
+        let settings = RenderSettings::new(Default::default(), PathIntegrator::new(3));
+        let picture = render(&scene, &view, &settings, &RenderOptions::default()).unwrap().picture;
+        for pixel in picture.color {
+            let is_near =
+                pixel.to_array().iter().zip(expected).all(|(a, b)| (a - b).abs() <= 1e-5 * b);
+            assert!(is_near, "{z} {square}: {pixel:?}");
+        }
+    }
+}
+
+/// Lamps alone, and lamps whose MTL names them last or first. Seen to fail with a shape of no triangles for what does not glow.
+#[test]
+fn all_faces_may_be_lamps() {
+    let folder = folder("scenes-all-lamps");
+    write(&folder, "m.obj", squares(["usemtl lamp"; 5]));
+    write(&folder, "m.mtl", MTL.replace("Ke 30 20 10", "Ke 0 0 1\nfoo"));
+    let loaded = load(&folder, "[shape.s]\nobj = \"m.obj\"\n");
+    let shapes: Vec<_> =
+        loaded.scene.shapes().map(|(name, mesh)| (name, mesh.indices.len())).collect();
+    assert_eq!((&shapes[..], loaded.report.meshes.len()), (&[("s/lamp", 10)][..], 1));
+    // Black is no emission.
+    write(&folder, "m.mtl", MTL.replace("Ke 30 20 10", "Ke 0 0 0"));
+    assert!(load(&folder, "[shape.s]\nobj = \"m.obj\"\n").scene.lights().is_empty());
+}
