@@ -8,7 +8,7 @@ use super::block::{CameraSamples, WideCamera, ray_of_one, rays_wide};
 use super::error::CameraError;
 use super::placement::{Axes, EYE, HANDEDNESS, Handedness, LOOK_AT, UP, check_resolution, fault};
 use super::traits::{Camera, Read};
-use crate::geometry::{Ray, Xyz};
+use crate::geometry::{PixelCone, Ray, Xyz};
 use crate::params::{Fault, Kind, Table};
 use crate::simd::{Float, four};
 
@@ -105,6 +105,11 @@ impl Camera for EquirectangularCamera {
 
     fn generate_rays(&self, samples: &CameraSamples, rays: &mut [Ray]) {
         rays_wide(self, samples, rays);
+    }
+
+    fn pixel_cone(&self) -> Option<PixelCone> {
+        let height = std::f32::consts::PI / self.resolution.y as f32;
+        Some(PixelCone::from_point(self.settings.eye, height))
     }
 
     fn describe(&self) -> String {

@@ -12,7 +12,7 @@ use super::placement::{
 };
 use super::traits::{Camera, Read};
 use crate::geometry::float::MAX_COORDINATE;
-use crate::geometry::{Ray, Xyz};
+use crate::geometry::{PixelCone, Ray, Xyz};
 use crate::params::{Fault, Key, Kind, Table};
 use crate::simd::{Float, four};
 
@@ -133,6 +133,10 @@ impl Camera for OrthographicCamera {
 
     fn generate_rays(&self, samples: &CameraSamples, rays: &mut [Ray]) {
         rays_wide(self, samples, rays);
+    }
+
+    fn pixel_cone(&self) -> Option<PixelCone> {
+        Some(PixelCone::parallel(self.forward, self.pixel_x.length()))
     }
 
     fn describe(&self) -> String {

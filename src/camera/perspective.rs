@@ -11,7 +11,7 @@ use super::placement::{
     check_resolution, fault, point_on_lens,
 };
 use super::traits::{Camera, Read};
-use crate::geometry::{Ray, Xyz};
+use crate::geometry::{PixelCone, Ray, Xyz};
 use crate::params::{Fault, Key, Kind, Table};
 use crate::simd::{Float, four};
 
@@ -117,6 +117,10 @@ impl Camera for PerspectiveCamera {
 
     fn generate_rays(&self, samples: &CameraSamples, rays: &mut [Ray]) {
         rays_wide(self, samples, rays);
+    }
+
+    fn pixel_cone(&self) -> Option<PixelCone> {
+        Some(PixelCone::from_point(self.settings.eye, self.pixel_x.length()))
     }
 
     fn describe(&self) -> String {

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::{UVec2, Vec2};
 
 use super::CameraSamples;
-use crate::geometry::Ray;
 use crate::geometry::float::MAX_COORDINATE;
+use crate::geometry::{PixelCone, Ray};
 use crate::params::{Fault, Table};
 use crate::simd::{
     Block, BlockKernel, Float, InstructionSet, LaneMask, ROW, RowMask, groups, indices,
@@ -47,6 +47,11 @@ pub trait Camera: Send + Sync {
         }
     }
 
+    /// How far apart the rays of neighbouring pixels are, about, for textures that filter; `None` if that is not known: then they do not.
+    fn pixel_cone(&self) -> Option<PixelCone> {
+        None
+    }
+
     /// What it is and where it stands, in one line for people.
     fn describe(&self) -> String {
         "custom".to_owned()
@@ -68,6 +73,10 @@ impl<C: Camera + ?Sized> Camera for Arc<C> {
 
     fn generate_rays(&self, samples: &CameraSamples, rays: &mut [Ray]) {
         (**self).generate_rays(samples, rays);
+    }
+
+    fn pixel_cone(&self) -> Option<PixelCone> {
+        (**self).pixel_cone()
     }
 
     fn describe(&self) -> String {

@@ -195,14 +195,24 @@ impl PathTracer<'_> {
     #[inline(never)]
     fn scatter(&self, sampler: &dyn Sampler, wave: &mut Wave, depth: u32) {
         let Self { scene, rules } = self;
-        let Wave { rays, hits, paths, shadow, arena, counters, .. } = wave;
+        let Wave { rays, hits, paths, shadow, arena, counters, cone, .. } = wave;
+        let cone = cone.as_ref();
         let Paths { first, list, hits: list_hits, next, by_hit, by_material, values } = paths;
         let at = paths_at(depth, [first, list], rays, [hits, list_hits]);
         let active = &by_hit.active[..];
         by_material
             .sort(active.len(), |vertex| scene.material_at(&at.hits[active[vertex] as usize]));
-        let mut vertices =
-            Vertices::new(Stage { rules, scene, sampler, arena, depth, paths: at, active, values });
+        let mut vertices = Vertices::new(Stage {
+            rules,
+            scene,
+            sampler,
+            arena,
+            cone,
+            depth,
+            paths: at,
+            active,
+            values,
+        });
         for (material, range) in by_material.runs() {
             for block in by_material.order()[range].chunks(BLOCK) {
                 vertices.fill(material, block);

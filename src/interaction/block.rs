@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use super::{Hit, Source, SurfaceInteraction, SurfacePlace, oriented, uv_at};
-use crate::geometry::{Bounded, BoundedPoint, Ray, Xyz};
+use crate::geometry::{Bounded, BoundedPoint, PixelCone, Ray, Xyz};
 use crate::shape::{TriangleMesh, triangle_normal_wide};
 use crate::simd::{
     Block, BlockKernel, InstructionSet, LaneMask, MAX_LANES, ROW, RowMask, Rows, groups, indices,
@@ -18,6 +18,7 @@ pub const BLOCK: usize = ROW;
 pub struct HitBlock<'a> {
     meshes: &'a [TriangleMesh],
     last_vertices: &'a [LastVertex],
+    cone: Option<&'a PixelCone>,
     pub(crate) instruction_set: InstructionSet,
     len: usize,
     /// Indices of shape and triangle.
@@ -38,16 +39,18 @@ pub(crate) struct Hits<F> {
 }
 
 impl<'a> HitBlock<'a> {
-    /// An empty block of hits on these meshes, to be processed with these instructions.
+    /// An empty block of hits on these meshes, seen by a camera, to be processed with these instructions.
     pub(crate) fn new(
         meshes: &'a [TriangleMesh],
         last_vertices: &'a [LastVertex],
+        cone: Option<&'a PixelCone>,
         instruction_set: InstructionSet,
     ) -> Self {
         let zero = Rows::splat(0.0);
         Self {
             meshes,
             last_vertices,
+            cone,
             instruction_set,
             len: 0,
             places: [[0; 2]; ROW],
@@ -103,6 +106,7 @@ impl<'a> HitBlock<'a> {
             n: self.n.get(i).into(),
             shading_n: self.shading_n.get(i).into(),
             source: Source::Triangle { mesh: &self.meshes[place.shape as usize], place },
+            cone: self.cone,
             displaced: None,
         }
     }

@@ -9,7 +9,7 @@ pub use block::{BLOCK, HitBlock};
 pub(crate) use block::{Hits, LastVertex};
 pub use hit::Hit;
 
-use crate::geometry::{BoundedPoint, Frame, Ray, Xyz, unit, unit_cross};
+use crate::geometry::{BoundedPoint, Frame, PixelCone, Ray, Xyz, unit, unit_cross};
 use crate::shape::{TriangleMesh, shading_normal_wide, triangle_normal};
 use crate::simd::Float;
 
@@ -54,6 +54,8 @@ pub struct SurfaceInteraction<'a> {
     n: Vec3,
     shading_n: Vec3,
     source: Source<'a>,
+    /// Of the camera, if there is one.
+    cone: Option<&'a PixelCone>,
     /// Set by [`SurfaceInteraction::set_shading`].
     displaced: Option<Shading>,
 }
@@ -110,6 +112,7 @@ impl<'a> SurfaceInteraction<'a> {
             n,
             shading_n,
             source: Source::Triangle { mesh, place },
+            cone: None,
             displaced: None,
         }
     }
@@ -120,7 +123,7 @@ impl<'a> SurfaceInteraction<'a> {
     pub fn new(p: BoundedPoint, uv: Vec2, wo: Vec3, partials: Partials) -> Self {
         let n = unit_cross(partials.dpdu, partials.dpdv).unwrap_or(wo);
         let source = Source::Given { uv, partials, place: None };
-        Self { p, wo, n, shading_n: n, source, displaced: None }
+        Self { p, wo, n, shading_n: n, source, cone: None, displaced: None }
     }
 
     /// The point.
@@ -153,6 +156,21 @@ impl<'a> SurfaceInteraction<'a> {
             }
             Source::Given { uv, .. } => *uv,
         }
+    }
+
+    /// From the point to those that the next pixels see, along the surface: see [`PixelCone`]. `None` if no camera is known.
+    #[inline]
+    pub fn footprint(&self) -> Option<[Vec3; 2]> {
+        Some(self.cone?.footprint(self.p(), self.n))
+    }
+
+    /// Texture coordinates of a step along the surface: the least squares of ∂p/∂u du + ∂p/∂v dv.
+    pub fn uv_step(&self, step: Vec3) -> Vec2 {
+        let Partials { dpdu, dpdv, .. } = self.partials();
+        let [uu, uv, vv] = [dpdu.dot(dpdu), dpdu.dot(dpdv), dpdv.dot(dpdv)];
+        let [u, v] = [dpdu.dot(step), dpdv.dot(step)];
+        let step = Vec2::new(vv * u - uv * v, uu * v - uv * u) / (uu * vv - uv * uv);
+        if step.is_finite() { step } else { Vec2::ZERO }
     }
 
     /// Unit direction towards the origin of the ray.
@@ -242,6 +260,7 @@ impl<'a> SurfaceInteraction<'a> {
             n,
             shading_n: n,
             source: Source::Given { uv, partials: self.partials(), place: self.place() },
+            cone: self.cone,
             displaced: Some(Shading { n, ..self.shading() }),
             wo: self.wo,
         }

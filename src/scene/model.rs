@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::accel::{Accel, Hit, InstructionSet};
 use crate::bxdf::{Arena, Bsdf, BsdfBlock};
-use crate::geometry::Ray;
+use crate::geometry::{PixelCone, Ray};
 use crate::interaction::{HitBlock, LastVertex, SurfaceInteraction, SurfacePlace};
 use crate::light::{BoundingSphere, Light};
 use crate::material::Material;
@@ -103,8 +103,8 @@ impl Scene {
     }
 
     /// An empty block of hits on this scene's surfaces.
-    pub(crate) fn hit_block(&self) -> HitBlock<'_> {
-        HitBlock::new(&self.meshes, &self.last_vertices, self.instruction_set())
+    pub(crate) fn hit_block<'a>(&'a self, cone: Option<&'a PixelCone>) -> HitBlock<'a> {
+        HitBlock::new(&self.meshes, &self.last_vertices, cone, self.instruction_set())
     }
 
     /// Index of the material at a hit. Shapes may share one.

@@ -7,26 +7,11 @@ use glam::Vec2;
 
 use super::mapping::{self, Mapping};
 use super::texels::{Curve, Texels};
+use super::wrap::Wrap;
 use super::{AnyTexture, Read, Texture, Textures};
 use crate::interaction::{HitBlock, SurfaceInteraction};
 use crate::params::{Choice, Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
-
-/// What a flat texture holds outside of [0, 1]².
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wrap {
-    /// The same again.
-    Repeat,
-    /// The same, every other time mirrored.
-    Mirror,
-    /// The values at the edge.
-    Clamp,
-}
-
-impl Choice for Wrap {
-    const CHOICES: &'static [(&'static str, Self)] =
-        &[("repeat", Self::Repeat), ("mirror", Self::Mirror), ("clamp", Self::Clamp)];
-}
 
 /// What is between the centres of pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +25,21 @@ pub enum Magnification {
 impl Choice for Magnification {
     const CHOICES: &'static [(&'static str, Self)] =
         &[("bilinear", Self::Bilinear), ("nearest", Self::Nearest)];
+}
+
+/// What stands for many pixels of an image that fall into one of the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Minification {
+    /// Whatever pixel a sample meets: noise, which more samples reduce.
+    None,
+    /// Their mean over the footprint of the picture's pixel, from smaller images (mipmaps): no noise, but blur where the footprint is
+    /// estimated too large.
+    Anisotropic,
+}
+
+impl Choice for Minification {
+    const CHOICES: &'static [(&'static str, Self)] =
+        &[("none", Self::None), ("anisotropic", Self::Anisotropic)];
 }
 
 /// An image on surfaces: colours, or numbers by one [`Channel`] of it.
@@ -63,6 +63,7 @@ pub struct ImageTexture {
     mapping: Mapping,
     wrap: [Wrap; 2],
     magnification: Magnification,
+    minification: Minification,
 }
 
 impl ImageTexture {
@@ -73,6 +74,7 @@ impl ImageTexture {
             mapping: Mapping::default(),
             wrap: [Wrap::Repeat; 2],
             magnification: Magnification::Bilinear,
+            minification: Minification::None,
         }
     }
 
@@ -96,12 +98,26 @@ impl ImageTexture {
         OfChannel { image: self, channel }
     }
 
+    /// Chooses what stands for many pixels that fall into one of the picture.
+    pub fn with_minification(self, minification: Minification) -> Self {
+        if minification == Minification::Anisotropic {
+            self.texels.smaller();
+        }
+        Self { minification, ..self }
+    }
+
     /// The colour at a point of the image's plane. Black if the point is not finite.
     pub fn at(&self, st: Vec2) -> Spectrum {
+        self.within(&self.texels, st)
+    }
+
+    /// The same in the image or in a smaller one.
+    #[inline]
+    fn within(&self, texels: &Texels, st: Vec2) -> Spectrum {
         if !st.is_finite() {
             return Spectrum::BLACK;
         }
-        let ([wrap_s, wrap_t], size) = (self.wrap, self.texels.size());
+        let ([wrap_s, wrap_t], size) = (self.wrap, texels.size());
         let (s, t) = (wrap_s.folded(st.x), wrap_t.folded(st.y));
         // Rows count from the top.
         let last = size.y - 1;
@@ -110,68 +126,76 @@ impl ImageTexture {
                 let index = |at: f32, count: u32| {
                     ((f64::from(at) * f64::from(count)) as u32).min(count - 1)
                 };
-                self.texels.at(index(s, size.x), last - index(t, size.y))
+                texels.at(index(s, size.x), last - index(t, size.y))
             }
             Magnification::Bilinear => {
                 let (x, part_x) = wrap_s.neighbours(s, size.x);
                 let ([below, above], part_y) = wrap_t.neighbours(t, size.y);
-                self.texels.between(x, [last - below, last - above], [part_x, part_y])
+                texels.between(x, [last - below, last - above], [part_x, part_y])
             }
         }
     }
-}
 
-impl Wrap {
-    /// The coordinate in `[0, 1]` that stands for this one.
-    #[inline]
-    fn folded(self, s: f32) -> f32 {
-        match self {
-            Self::Repeat => s - floor(s),
-            Self::Mirror => {
-                let s = s - 2.0 * floor(0.5 * s);
-                if s > 1.0 { 2.0 - s } else { s }
-            }
-            Self::Clamp => s.clamp(0.0, 1.0),
+    /// The mean over a footprint: the parallelogram of two steps to the next pixels of the picture, around a point.
+    ///
+    /// Along the longer side at most 16 lookups, each in two smaller images whose pixels are about as wide as the shorter side. Where pixels of
+    /// the picture are no larger than those of the image it is [`at`](Self::at).
+    pub fn mean(&self, st: Vec2, steps: [Vec2; 2]) -> Spectrum {
+        const MOST: f32 = 16.0;
+        let size = self.texels.size().as_vec2();
+        let [a, b] = steps.map(|step| step * size);
+        let (longer, step) = if a.length() > b.length() { (a, steps[0]) } else { (b, steps[1]) };
+        let length = longer.length();
+        if length.is_nan() || length <= 1.0 {
+            return self.at(st);
         }
+        let width = (a.perp_dot(b).abs() / length).max(1.0);
+        let lookups = (length / width).ceil().clamp(1.0, MOST);
+        let width = width.max(length / lookups);
+        let mut sum = Spectrum::BLACK;
+        for i in 0..lookups as u32 {
+            let along = (i as f32 + 0.5) / lookups - 0.5;
+            sum += self.between_sizes(st + step * along, width.log2());
+        }
+        sum / lookups
     }
 
-    /// The two pixels whose centres are next to a coordinate in `[0, 1]`, of `count` in a row, and the weight of the second.
-    #[inline]
-    fn neighbours(self, s: f32, count: u32) -> ([u32; 2], f32) {
-        // In f64, as wide images have more columns than f32 tells apart.
-        let at = f64::from(s) * f64::from(count) - 0.5;
-        let last = count - 1;
-        if at < 0.0 {
-            let before = if self == Self::Repeat { last } else { 0 };
-            return ([before, 0], (at + 1.0) as f32);
-        }
-        let first = (at as u32).min(last);
-        let second = match self {
-            Self::Repeat if first == last => 0,
-            _ => (first + 1).min(last),
+    /// Between the images that are smaller by powers of two next to a `level`, at least 0.
+    fn between_sizes(&self, st: Vec2, level: f32) -> Spectrum {
+        let smaller = self.texels.smaller();
+        let of = |level: usize| match level {
+            0 => &*self.texels,
+            _ => &smaller[level - 1],
         };
-        ([first, second], (at - f64::from(first)) as f32)
+        let last = smaller.len();
+        let first = (level as usize).min(last);
+        let part = (level - first as f32).min(1.0);
+        let value = self.within(of(first), st);
+        if part == 0.0 || first == last {
+            return value;
+        }
+        value * (1.0 - part) + self.within(of(first + 1), st) * part
     }
-}
-
-/// The largest integer that is not larger. Without SSE4, that of the standard library is a call.
-#[inline]
-fn floor(x: f32) -> f32 {
-    // From 2^23 on all are integers.
-    if x.abs() >= 8_388_608.0 {
-        return x;
-    }
-    let truncated = x as i32 as f32;
-    if truncated > x { truncated - 1.0 } else { truncated }
 }
 
 impl Texture<Spectrum> for ImageTexture {
     fn evaluate(&self, si: &SurfaceInteraction) -> Spectrum {
-        self.mapping.points(si).into_iter().map(|(st, weight)| self.at(st) * weight).sum()
+        let points = self.mapping.points(si).into_iter();
+        let footprint = match self.minification {
+            Minification::None => None,
+            Minification::Anisotropic => si.footprint(),
+        };
+        match footprint {
+            None => points.map(|(st, weight)| self.at(st) * weight).sum(),
+            Some(footprint) => {
+                let steps = self.mapping.steps(si, footprint);
+                points.zip(steps).map(|((st, weight), steps)| self.mean(st, steps) * weight).sum()
+            }
+        }
     }
 
     fn evaluate_block(&self, hits: &HitBlock, values: &mut [Spectrum]) {
-        match self.mapping.of_uv() {
+        match self.mapping.of_uv().filter(|_| self.minification == Minification::None) {
             Some(plane) => {
                 for (i, value) in values.iter_mut().enumerate() {
                     // As the sum of one weighted value.
@@ -253,6 +277,11 @@ const WRAP: Key<Wrap> = Key::new("wrap", "what is beyond the edges").default(Wra
 const MAGNIFICATION: Key<Magnification> =
     Key::new("magnification", "what is between the centres of pixels")
         .default(Magnification::Bilinear);
+const MINIFICATION: Key<Minification> = Key::new(
+    "minification",
+    "what stands for many pixels that fall into one of the picture: one of them, or the mean over its footprint",
+)
+.default(Minification::None);
 
 /// `type = "image"`
 pub(super) const KIND: Kind<Read> = Kind {
@@ -264,6 +293,7 @@ pub(super) const KIND: Kind<Read> = Kind {
         &CURVE,
         &WRAP,
         &MAGNIFICATION,
+        &MINIFICATION,
         mapping::KEYS[0],
         mapping::KEYS[1],
         mapping::KEYS[2],
@@ -285,29 +315,10 @@ fn read(table: &Table, textures: &Textures) -> Result<AnyTexture, Fault> {
     let image = ImageTexture::new(texels)
         .with_mapping(mapping::read(table)?)
         .with_wrap(table.get(&WRAP)?)
-        .with_magnification(table.get(&MAGNIFICATION)?);
+        .with_magnification(table.get(&MAGNIFICATION)?)
+        .with_minification(table.get(&MINIFICATION)?);
     Ok(match values {
         Values::Colors => AnyTexture::Color(image.into_handle()),
         Values::Numbers(channel) => AnyTexture::Number(image.channel(channel).into_handle()),
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn pixels_continue_beyond_the_edges() {
-        let pixel = |wrap: Wrap, s: f32| (wrap.folded(s) * 2.0) as u32;
-        let all = |wrap| (-3..6).map(|i| pixel(wrap, 0.5 * i as f32 + 0.25)).collect::<Vec<_>>();
-        assert_eq!(all(Wrap::Repeat), [1, 0, 1, 0, 1, 0, 1, 0, 1]);
-        assert_eq!(all(Wrap::Mirror), [1, 1, 0, 0, 1, 1, 0, 0, 1]);
-        assert_eq!(all(Wrap::Clamp), [0, 0, 0, 0, 1, 2, 2, 2, 2]);
-        for (wrap, before, after) in
-            [(Wrap::Repeat, [2, 0], [2, 0]), (Wrap::Mirror, [0, 0], [2, 2])]
-        {
-            assert_eq!(wrap.neighbours(0.0, 3), (before, 0.5));
-            assert_eq!(wrap.neighbours(1.0, 3), (after, 0.5));
-        }
-    }
 }

@@ -96,6 +96,39 @@ impl Mapping {
         (self.projection == Projection::Uv).then_some(self.plane)
     }
 
+    /// A step of the texture's coordinates for each of two steps along the surface, for each of the [`points`](Self::points).
+    pub(super) fn steps(
+        &self,
+        si: &SurfaceInteraction,
+        steps: [Vec3; 2],
+    ) -> ArrayVec<[Vec2; 2], 3> {
+        let linear = self.plane.matrix2;
+        if let Projection::Uv = self.projection {
+            return [steps.map(|step| linear * si.uv_step(step))].into_iter().collect();
+        }
+        let turn = self.axes.inverse();
+        let d = steps.map(|step| turn * step);
+        if let Projection::Triplanar = self.projection {
+            let planes = [
+                d.map(|d| Vec2::new(d.y, d.z)),
+                d.map(|d| Vec2::new(d.x, d.z)),
+                d.map(Vec3::truncate),
+            ];
+            return planes.into_iter().map(|d| d.map(|d| linear * d)).collect();
+        }
+        let q = turn * (si.p() - self.center);
+        let at = self.projected(q);
+        let difference = |d: Vec3| {
+            let mut step = self.projected(q + d) - at;
+            if self.projection != Projection::Planar {
+                // Around the seam of the longitudes.
+                step.x -= step.x.round();
+            }
+            linear * step
+        };
+        [d.map(difference)].into_iter().collect()
+    }
+
     /// Points of the texture and their weights, which add up to 1.
     #[inline]
     pub(super) fn points(&self, si: &SurfaceInteraction) -> ArrayVec<(Vec2, f32), 3> {

@@ -1,5 +1,6 @@
 //! Textures: values that may vary over a surface.
 
+mod checkerboard;
 mod constant;
 mod image;
 mod mapping;
@@ -8,17 +9,21 @@ mod product;
 mod read;
 mod texels;
 mod traits;
+mod wrap;
 
+pub use checkerboard::CheckerboardTexture;
 pub use constant::ConstantTexture;
-pub use image::{Channel, ImageTexture, Magnification, Wrap};
+pub use image::{Channel, ImageTexture, Magnification, Minification};
 pub use mapping::{Mapping, Projection};
 pub use mix::MixTexture;
 pub use product::ProductTexture;
 pub use read::{AnyTexture, Read, TextureKey, TextureValue, Textures};
 pub use texels::{Curve, Texels};
 pub use traits::{Texture, TextureHandle};
+pub use wrap::Wrap;
 
 use crate::params::Kind;
 
 /// All kinds of textures of scene files.
-pub static TEXTURES: &[Kind<Read>] = &[constant::KIND, image::KIND, product::KIND, mix::KIND];
+pub static TEXTURES: &[Kind<Read>] =
+    &[constant::KIND, image::KIND, checkerboard::KIND, product::KIND, mix::KIND];

@@ -1,5 +1,8 @@
 //! [`Texels`]: the pixels of image textures.
 
+use std::sync::OnceLock;
+
+use arrayvec::ArrayVec;
 use glam::UVec2;
 
 use crate::image::{Display, Encoding, Image};
@@ -46,6 +49,8 @@ pub struct Texels {
     /// Tiles in a row.
     tiles: u32,
     pixels: Pixels,
+    /// Halved again and again, if a texture filters.
+    smaller: OnceLock<Vec<Self>>,
 }
 
 enum Pixels {
@@ -57,6 +62,20 @@ enum Pixels {
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 struct Tile<T>([T; 16]);
+
+/// For each of `few` pixels of a row, which of `many` it covers and the fraction of each.
+fn covered(many: u32, few: u32) -> Vec<ArrayVec<(u32, f32), 3>> {
+    let scale = f64::from(many) / f64::from(few);
+    let of_pixel = |i: u32| {
+        let [from, to] = [scale * f64::from(i), scale * f64::from(i + 1)];
+        let part = |j: u32| {
+            let within = to.min(f64::from(j + 1)) - from.max(f64::from(j));
+            (within > 1e-6).then_some((j, (within / scale) as f32))
+        };
+        (from as u32..many.min(from as u32 + 4)).filter_map(part).take(3).collect()
+    };
+    (0..few).map(of_pixel).collect()
+}
 
 /// Pixels in tiles, row by row; those beyond the edges are not looked up.
 fn tiled<T: Copy>(size: UVec2, pixel: impl Fn(usize) -> T) -> Vec<Tile<T>> {
@@ -89,7 +108,43 @@ impl Texels {
             let value = |i: usize| image.pixels[i].to_array().map(|code| curve.decode(code));
             Pixels::Values(tiled(image.size, value))
         };
-        Self { size: image.size, tiles: image.size.x.div_ceil(4), pixels }
+        Self::of(image.size, pixels)
+    }
+
+    fn of(size: UVec2, pixels: Pixels) -> Self {
+        Self { size, tiles: size.x.div_ceil(4), pixels, smaller: OnceLock::new() }
+    }
+
+    /// The image at half its size, a quarter, and so on to a single pixel, which are made when they are first asked for. Pixels are means over the
+    /// area that they cover.
+    pub(super) fn smaller(&self) -> &[Self] {
+        self.smaller.get_or_init(|| {
+            let mut all: Vec<Self> = Vec::new();
+            loop {
+                let last = all.last().unwrap_or(self);
+                if last.size == UVec2::ONE {
+                    return all;
+                }
+                all.push(last.halved());
+            }
+        })
+    }
+
+    /// At half the size, rounded down but at least 1.
+    fn halved(&self) -> Self {
+        let size = (self.size / 2).max(UVec2::ONE);
+        let (columns, rows) = (covered(self.size.x, size.x), covered(self.size.y, size.y));
+        let value = |i: usize| {
+            let (x, y) = (i % size.x as usize, i / size.x as usize);
+            let mut sum = Spectrum::BLACK;
+            for &(row, part_y) in &rows[y] {
+                for &(column, part_x) in &columns[x] {
+                    sum += self.at(column, row) * (part_x * part_y);
+                }
+            }
+            sum.to_array()
+        };
+        Self::of(size, Pixels::Values(tiled(size, value)))
     }
 
     /// What keeps an image from being a texture: a value that is negative or not finite.
@@ -114,10 +169,11 @@ impl Texels {
 
     /// Bytes in memory.
     pub fn bytes(&self) -> usize {
-        match &self.pixels {
+        let own = match &self.pixels {
             Pixels::Codes(codes, meanings) => size_of_val(&codes[..]) + size_of_val(&meanings[..]),
             Pixels::Values(values) => size_of_val(&values[..]),
-        }
+        };
+        own + self.smaller.get().map_or(0, |all| all.iter().map(Self::bytes).sum())
     }
 
     /// Between four pixels: of two columns and two rows, with the weights of the second of each.

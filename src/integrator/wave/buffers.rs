@@ -9,7 +9,7 @@ use super::shadow_rays::ShadowRays;
 use crate::accel::Hit;
 use crate::bxdf::Arena;
 use crate::camera;
-use crate::geometry::Ray;
+use crate::geometry::{PixelCone, Ray};
 use crate::sampling::{SampleId, Sampler};
 use crate::scene::{Scene, View};
 use crate::spectrum::Spectrum;
@@ -23,6 +23,8 @@ pub struct Wave<'a> {
     /// Sample values for the filter and the lens.
     film: Vec<Vec2>,
     lens: Vec<Vec2>,
+    /// How wide pixels are, if the camera tells.
+    pub(crate) cone: Option<PixelCone>,
     /// Camera rays.
     pub rays: Vec<Ray>,
     /// Closest hits of the camera rays.
@@ -92,7 +94,8 @@ impl<'a> Wave<'a> {
 
     /// Generates the camera rays of the samples in `ids`, and intersects them with the scene.
     pub fn begin(&mut self, scene: &Scene, view: &View, sampler: &dyn Sampler) {
-        let Self { ids, film, lens, rays, hits, radiance, counters, .. } = self;
+        let Self { ids, film, lens, cone, rays, hits, radiance, counters, .. } = self;
+        *cone = view.camera().pixel_cone();
         film.resize(ids.len(), Vec2::ZERO);
         sampler.fill_2d(ids, dimension::FILM, film);
         lens.resize(ids.len(), Vec2::ZERO);

@@ -9,8 +9,8 @@ use super::paths::{Path, PathList, PathsAt, PathsWide, Values};
 use super::rules::{PathRules, power_heuristic};
 use super::shadow_rays::ShadowRays;
 use crate::bxdf::{Arena, BsdfBlock, BsdfSamples};
-use crate::geometry::Xyz;
 use crate::geometry::float::ONE_MINUS_EPSILON;
+use crate::geometry::{PixelCone, Xyz};
 use crate::interaction::HitBlock;
 use crate::light::{LightSamples, Receivers};
 use crate::sampling::{SampleId, Sampler};
@@ -27,6 +27,7 @@ pub struct Stage<'a> {
     pub scene: &'a Scene,
     pub sampler: &'a dyn Sampler,
     pub arena: &'a Arena,
+    pub cone: Option<&'a PixelCone>,
     pub depth: u32,
     pub paths: PathsAt<'a>,
     /// Paths that hit a surface, and their sample values. A *vertex* is an index into either.
@@ -59,7 +60,7 @@ impl<'a> Vertices<'a> {
     pub fn new(stage: Stage<'a>) -> Self {
         Self {
             stage,
-            hits: stage.scene.hit_block(),
+            hits: stage.scene.hit_block(stage.cone),
             bsdfs: BsdfBlock::new(),
             len: 0,
             vertices: [0; ROW],

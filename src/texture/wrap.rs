@@ -1,0 +1,83 @@
+//! [`Wrap`]: how images continue.
+
+use crate::params::Choice;
+
+/// What a flat texture holds outside of [0, 1]².
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wrap {
+    /// The same again.
+    Repeat,
+    /// The same, every other time mirrored.
+    Mirror,
+    /// The values at the edge.
+    Clamp,
+}
+
+impl Choice for Wrap {
+    const CHOICES: &'static [(&'static str, Self)] =
+        &[("repeat", Self::Repeat), ("mirror", Self::Mirror), ("clamp", Self::Clamp)];
+}
+
+impl Wrap {
+    /// The coordinate in `[0, 1]` that stands for this one.
+    #[inline]
+    pub(super) fn folded(self, s: f32) -> f32 {
+        match self {
+            Self::Repeat => s - floor(s),
+            Self::Mirror => {
+                let s = s - 2.0 * floor(0.5 * s);
+                if s > 1.0 { 2.0 - s } else { s }
+            }
+            Self::Clamp => s.clamp(0.0, 1.0),
+        }
+    }
+
+    /// The two pixels whose centres are next to a coordinate in `[0, 1]`, of `count` in a row, and the weight of the second.
+    #[inline]
+    pub(super) fn neighbours(self, s: f32, count: u32) -> ([u32; 2], f32) {
+        // In f64, as wide images have more columns than f32 tells apart.
+        let at = f64::from(s) * f64::from(count) - 0.5;
+        let last = count - 1;
+        if at < 0.0 {
+            let before = if self == Self::Repeat { last } else { 0 };
+            return ([before, 0], (at + 1.0) as f32);
+        }
+        let first = (at as u32).min(last);
+        let second = match self {
+            Self::Repeat if first == last => 0,
+            _ => (first + 1).min(last),
+        };
+        ([first, second], (at - f64::from(first)) as f32)
+    }
+}
+
+/// The largest integer that is not larger. Without SSE4, that of the standard library is a call.
+#[inline]
+fn floor(x: f32) -> f32 {
+    // From 2^23 on all are integers.
+    if x.abs() >= 8_388_608.0 {
+        return x;
+    }
+    let truncated = x as i32 as f32;
+    if truncated > x { truncated - 1.0 } else { truncated }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_continue_beyond_the_edges() {
+        let pixel = |wrap: Wrap, s: f32| (wrap.folded(s) * 2.0) as u32;
+        let all = |wrap| (-3..6).map(|i| pixel(wrap, 0.5 * i as f32 + 0.25)).collect::<Vec<_>>();
+        assert_eq!(all(Wrap::Repeat), [1, 0, 1, 0, 1, 0, 1, 0, 1]);
+        assert_eq!(all(Wrap::Mirror), [1, 1, 0, 0, 1, 1, 0, 0, 1]);
+        assert_eq!(all(Wrap::Clamp), [0, 0, 0, 0, 1, 2, 2, 2, 2]);
+        for (wrap, before, after) in
+            [(Wrap::Repeat, [2, 0], [2, 0]), (Wrap::Mirror, [0, 0], [2, 2])]
+        {
+            assert_eq!(wrap.neighbours(0.0, 3), (before, 0.5));
+            assert_eq!(wrap.neighbours(1.0, 3), (after, 0.5));
+        }
+    }
+}
