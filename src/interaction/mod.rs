@@ -158,6 +158,11 @@ impl<'a> SurfaceInteraction<'a> {
         }
     }
 
+    /// This point as a camera with this cone sees it.
+    pub fn seen_by(self, cone: &'a PixelCone) -> Self {
+        Self { cone: Some(cone), ..self }
+    }
+
     /// From the point to those that the next pixels see, along the surface: see [`PixelCone`]. `None` if no camera is known.
     #[inline]
     pub fn footprint(&self) -> Option<[Vec3; 2]> {

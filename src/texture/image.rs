@@ -118,19 +118,15 @@ impl ImageTexture {
             return Spectrum::BLACK;
         }
         let ([wrap_s, wrap_t], size) = (self.wrap, texels.size());
-        let (s, t) = (wrap_s.folded(st.x), wrap_t.folded(st.y));
         // Rows count from the top.
         let last = size.y - 1;
         match self.magnification {
             Magnification::Nearest => {
-                let index = |at: f32, count: u32| {
-                    ((f64::from(at) * f64::from(count)) as u32).min(count - 1)
-                };
-                texels.at(index(s, size.x), last - index(t, size.y))
+                texels.at(wrap_s.nearest(st.x, size.x), last - wrap_t.nearest(st.y, size.y))
             }
             Magnification::Bilinear => {
-                let (x, part_x) = wrap_s.neighbours(s, size.x);
-                let ([below, above], part_y) = wrap_t.neighbours(t, size.y);
+                let (x, part_x) = wrap_s.neighbours(st.x, size.x);
+                let ([below, above], part_y) = wrap_t.neighbours(st.y, size.y);
                 texels.between(x, [last - below, last - above], [part_x, part_y])
             }
         }
@@ -146,7 +142,7 @@ impl ImageTexture {
         let [a, b] = steps.map(|step| step * size);
         let (longer, step) = if a.length() > b.length() { (a, steps[0]) } else { (b, steps[1]) };
         let length = longer.length();
-        if length.is_nan() || length <= 1.0 {
+        if !(a.is_finite() && b.is_finite()) || length <= 1.0 {
             return self.at(st);
         }
         let width = (a.perp_dot(b).abs() / length).max(1.0);

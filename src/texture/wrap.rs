@@ -21,7 +21,7 @@ impl Choice for Wrap {
 impl Wrap {
     /// The coordinate in `[0, 1]` that stands for this one.
     #[inline]
-    pub(super) fn folded(self, s: f32) -> f32 {
+    fn folded(self, s: f32) -> f32 {
         match self {
             Self::Repeat => s - floor(s),
             Self::Mirror => {
@@ -32,11 +32,24 @@ impl Wrap {
         }
     }
 
-    /// The two pixels whose centres are next to a coordinate in `[0, 1]`, of `count` in a row, and the weight of the second.
+    /// The pixel at a coordinate, of `count` in a row.
+    #[inline]
+    pub(super) fn nearest(self, s: f32, count: u32) -> u32 {
+        let index = |s: f32| (f64::from(s) * f64::from(count)) as u32;
+        match self {
+            Self::Mirror => {
+                let index = index(s - 2.0 * floor(0.5 * s)).min(2 * count - 1);
+                index.min(2 * count - 1 - index)
+            }
+            _ => index(self.folded(s)).min(count - 1),
+        }
+    }
+
+    /// The two pixels whose centres are next to a coordinate, of `count` in a row, and the weight of the second.
     #[inline]
     pub(super) fn neighbours(self, s: f32, count: u32) -> ([u32; 2], f32) {
         // In f64, as wide images have more columns than f32 tells apart.
-        let at = f64::from(s) * f64::from(count) - 0.5;
+        let at = f64::from(self.folded(s)) * f64::from(count) - 0.5;
         let last = count - 1;
         if at < 0.0 {
             let before = if self == Self::Repeat { last } else { 0 };
@@ -68,11 +81,12 @@ mod tests {
 
     #[test]
     fn pixels_continue_beyond_the_edges() {
-        let pixel = |wrap: Wrap, s: f32| (wrap.folded(s) * 2.0) as u32;
-        let all = |wrap| (-3..6).map(|i| pixel(wrap, 0.5 * i as f32 + 0.25)).collect::<Vec<_>>();
+        let all = |wrap: Wrap| {
+            (-3..6).map(|i| wrap.nearest(0.5 * i as f32 + 0.25, 2)).collect::<Vec<_>>()
+        };
         assert_eq!(all(Wrap::Repeat), [1, 0, 1, 0, 1, 0, 1, 0, 1]);
         assert_eq!(all(Wrap::Mirror), [1, 1, 0, 0, 1, 1, 0, 0, 1]);
-        assert_eq!(all(Wrap::Clamp), [0, 0, 0, 0, 1, 2, 2, 2, 2]);
+        assert_eq!(all(Wrap::Clamp), [0, 0, 0, 0, 1, 1, 1, 1, 1]);
         for (wrap, before, after) in
             [(Wrap::Repeat, [2, 0], [2, 0]), (Wrap::Mirror, [0, 0], [2, 2])]
         {

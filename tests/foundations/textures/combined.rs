@@ -65,7 +65,7 @@ fn images_are_shared() {
         images.iter().map(|(_, curve, _)| *curve).collect::<Vec<_>>(),
         [Curve::Srgb, Curve::Linear]
     );
-    assert!(images.iter().all(|(_, _, texels)| texels.bytes() == 24));
+    assert!(images.iter().all(|(_, _, texels)| texels.bytes() == 192));
     assert!(Textures::default().images().is_empty());
 }
 

@@ -67,7 +67,8 @@ fn radiance_stays_as_it_is() {
     for (curve, values) in CURVES.into_iter().flat_map(|curve| [(curve, values), (curve, [1.0; 8])])
     {
         let texels = Texels::new(&image([8, 1], Encoding::Linear, values), curve);
-        assert_eq!(texels.bytes(), 12 * 8);
+        // Two tiles of 16 pixels.
+        assert_eq!(texels.bytes(), 2 * 16 * 12);
         for (x, value) in values.into_iter().enumerate() {
             let found = texels.at(x as u32, 0).to_array().map(f32::to_bits);
             assert_eq!(found, [value.to_bits(); 3], "{curve:?}");

@@ -1,6 +1,7 @@
 //! What implements `Texture`, and how materials store it.
 
 mod combined;
+mod filtered;
 mod lookups;
 mod mappings;
 
