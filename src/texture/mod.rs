@@ -8,6 +8,7 @@ mod product;
 mod read;
 mod texels;
 mod traits;
+mod value;
 
 pub use constant::ConstantTexture;
 pub use image::{Channel, ImageTexture, Magnification, Wrap};

@@ -1,6 +1,8 @@
 //! What implements `Texture`, and how materials store it.
 
 mod combined;
+#[path = "../../folders/mod.rs"]
+mod folders;
 mod lookups;
 mod mappings;
 
