@@ -109,9 +109,8 @@ fn decoding_is_exact_at_all_codes() {
     }
 }
 
-/// Grey is read as it is, luma and chroma by the equations of JFIF (Rec. 601), and of Adobe's files with four components, ink is absent
-/// light. One by one, in units of several blocks, progressive, and with restarts. Seen to fail with chroma exchanged, and with three
-/// components of Adobe's transform 0 taken for luma and chroma.
+/// Grey is read as it is, luma and chroma by the equations of JFIF (Rec. 601), and of Adobe's files with four components, ink is
+/// absent light. One by one, in units of several blocks, progressive, and with restarts. Seen to fail with bands exchanged.
 #[test]
 fn jpeg_has_codes_in_all_its_kinds() {
     let rgb = |y: f64, cb: f64, cr: f64| {
@@ -151,8 +150,8 @@ fn jpeg_has_codes_in_all_its_kinds() {
     }
 }
 
-/// A picture of another program, in which every pixel differs: rows from the top, columns from the left.
-/// Seen to fail with rows and columns exchanged.
+/// A picture of another program, in which every pixel differs: rows from the top, columns from the left. Seen to fail with bands
+/// exchanged.
 #[test]
 fn jpeg_of_another_encoder() {
     let (width, height) = (37_u32, 21_u32);

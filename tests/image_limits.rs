@@ -85,7 +85,8 @@ const JPEG: JpegFile<'static> = JpegFile {
     adobe: None,
 };
 
-/// The file, its coefficients, codes and pixels of a JPEG file count. Seen to fail with each of them left out.
+/// The file, its coefficients, codes and pixels of a JPEG file count. Seen to fail with the file or its codes left out, and with
+/// coefficients of three bands.
 #[test]
 fn codes_and_coefficients_of_jpeg_files_count() {
     let colors = [(90, 2), (100, 1), (100, 1)];
@@ -105,8 +106,8 @@ fn codes_and_coefficients_of_jpeg_files_count() {
 }
 
 /// What is missing was grey. Wherever the file ends, it is refused; what follows its end marker does not matter, nor does a picture
-/// within a segment. Seen to fail with files taken as they are, with the markers of segments counted as the end, and with the
-/// stuffed zero taken for a marker.
+/// within a segment. Seen to fail with files taken as they are, with markers within segments, and with the stuffed zero taken for a
+/// marker.
 #[test]
 fn incomplete_jpeg_files_are_refused() {
     // Ones in the scan, so that zeros are stuffed.

@@ -4,9 +4,9 @@ use std::ops::{Add, Mul};
 
 use glam::Vec2;
 
-use super::constant::Constant;
 use super::mapping::{self, Mapping};
 use super::read::Pair;
+use super::value::Constant;
 use super::{AnyTexture, Read, Texture, TextureHandle, TextureKey, Textures};
 use crate::interaction::SurfaceInteraction;
 use crate::params::{Fault, Key, Kind, Table};

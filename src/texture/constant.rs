@@ -1,9 +1,9 @@
 //! [`ConstantTexture`]: the same value everywhere.
 
-use super::{AnyTexture, Read, Texture, TextureValue, Textures};
+use super::value::Constant;
+use super::{AnyTexture, Read, Texture, Textures};
 use crate::interaction::SurfaceInteraction;
-use crate::params::{Fault, Key, Kind, Limits, Param, Table, Value};
-use crate::spectrum::Spectrum;
+use crate::params::{Fault, Key, Kind, Table};
 
 /// The same value at every point. It needs neither texture coordinates nor filtering.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,46 +26,6 @@ impl<T: Copy + Send + Sync> Texture<T> for ConstantTexture<T> {
 
     fn constant(&self) -> Option<T> {
         Some(self.value)
-    }
-}
-
-/// A number or a colour, as in a scene file.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Constant {
-    /// A number.
-    Number(f32),
-    /// A colour.
-    Color(Spectrum),
-}
-
-impl From<Constant> for AnyTexture {
-    fn from(constant: Constant) -> Self {
-        match constant {
-            Constant::Number(value) => Self::Number(value.everywhere()),
-            Constant::Color(value) => Self::Color(value.everywhere()),
-        }
-    }
-}
-
-impl Param for Constant {
-    fn from_value(value: &Value, limits: &Limits) -> Option<Self> {
-        let number = f32::from_value(value, limits).map(Self::Number);
-        number.or_else(|| Spectrum::from_value(value, limits).map(Self::Color))
-    }
-
-    fn to_value(&self) -> Option<Value> {
-        match self {
-            Self::Number(value) => value.to_value(),
-            Self::Color(value) => value.to_value(),
-        }
-    }
-
-    fn expected(_: &Limits) -> String {
-        "a number or [red, green, blue], all finite".into()
-    }
-
-    fn example(limits: &Limits) -> Self {
-        Self::Color(Spectrum::example(limits))
     }
 }
 

@@ -9,6 +9,7 @@ mod product;
 mod read;
 mod texels;
 mod traits;
+mod value;
 mod wrap;
 
 pub use checkerboard::CheckerboardTexture;

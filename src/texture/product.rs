@@ -2,8 +2,8 @@
 
 use std::ops::Mul;
 
-use super::constant::Constant;
 use super::read::Pair;
+use super::value::Constant;
 use super::{AnyTexture, Read, Texture, TextureHandle, TextureKey, Textures};
 use crate::interaction::SurfaceInteraction;
 use crate::params::{Fault, Key, Kind, Table};

@@ -5,9 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::constant::Constant;
 use super::texels::{Curve, Texels};
 use super::traits::{Texture, TextureHandle};
+use super::value::Constant;
 use crate::image::{Image, ReadError};
 use crate::interaction::SurfaceInteraction;
 use crate::params::{AnyKey, Fault, Key, Mark, Param, Problem, Table, Value, quoted};
@@ -36,6 +36,15 @@ impl AnyTexture {
                 let grey = move |si: &SurfaceInteraction| Spectrum::splat(texture.evaluate(si));
                 grey.into_handle()
             }
+        }
+    }
+}
+
+impl From<Constant> for AnyTexture {
+    fn from(constant: Constant) -> Self {
+        match constant {
+            Constant::Number(value) => Self::Number(value.everywhere()),
+            Constant::Color(value) => Self::Color(value.everywhere()),
         }
     }
 }
@@ -216,7 +225,8 @@ impl Textures {
         let Some(node) = table.value(key)? else { return table.get(&key.0).map(Constant::into) };
         match &node.value {
             Value::Text(name) => self.by_name(name, node.mark).cloned(),
-            _ => table.get(&key.0).map(Constant::into),
+            Value::Number(_) | Value::Array(_) => table.get(&key.0).map(Constant::into),
+            other => Err(table.unfit(key, node, other.to_string(), key.expected())),
         }
     }
 

@@ -41,7 +41,7 @@ fn picture(builder: SceneBuilder) -> Vec<Spectrum> {
 }
 
 /// One mesh whose triangles differ gives the picture of as many shapes, bit by bit. Seen to fail with the material of the triangle
-/// before, and with the first of a block for all of it.
+/// before.
 #[test]
 fn materials_by_triangle_equal_separate_shapes() {
     let mesh = strip();
@@ -76,7 +76,7 @@ fn materials_by_triangle_equal_separate_shapes() {
     );
 }
 
-/// Seen to fail with one triangle too few or too many taken, and with an index of the count itself.
+/// Seen to fail with too many materials taken, and with an index of the count itself.
 #[test]
 fn materials_by_triangle_are_checked() {
     let refused = |names: &[&str], of_triangles: Vec<u32>| -> SceneError {

@@ -16,7 +16,7 @@ fn libraries(folder: &Path, lines: &str) -> Vec<String> {
     read.materials.libraries.iter().map(relative).collect()
 }
 
-/// Seen to fail with words taken before the whole, with words that are no files taken, and with the first word alone.
+/// Seen to fail with words taken before the whole, and with the whole alone.
 #[test]
 fn a_line_names_one_file_or_several() {
     let folder = folder("libraries-lines");
@@ -38,8 +38,8 @@ fn a_line_names_one_file_or_several() {
     }
 }
 
-/// As other programs and other systems write them. Seen to fail with each of: backslashes kept, case that counts, bytes of
-/// Latin-1 replaced, and paths of another computer.
+/// As other programs and other systems write them. Seen to fail with backslashes kept, with case that counts, and with paths of
+/// another computer.
 #[test]
 fn names_of_other_systems_are_found() {
     let folder = folder("libraries-names");

@@ -52,7 +52,8 @@ fn assert_made(lines: &str, expected: impl Material, notes: &[&str]) {
 
 const KD: [f32; 3] = [0.2, 0.4, 0.6];
 
-/// Seen to fail with each row of the table exchanged with the next, with the index of the file for one that is none, and with `Tf` left out.
+/// Seen to fail with `Pm` of 1/2 a metal, with models 3 and 5 matte, with black `Ks` plastic, with an index below 1 taken, and with
+/// `Tf` left out.
 #[test]
 fn each_row_of_the_table_is_a_material() {
     let grey = Spectrum::splat(0.5);
@@ -98,7 +99,7 @@ fn each_row_of_the_table_is_a_material() {
     assert_made(&format!("{kd}Pm 0.5"), MatteMaterial::new(KD), &[]);
 }
 
-/// Seen to fail with `Ns` before `Pr`, with α squared, and without clamps.
+/// Seen to fail with `Ns` before `Pr`, and with α squared.
 #[test]
 fn roughness_is_pr_or_comes_from_ns() {
     let alpha = |ns: f32| Roughness::alpha((2.0 / (ns + 2.0)).sqrt());
@@ -131,7 +132,7 @@ fn roughness_is_pr_or_comes_from_ns() {
     }
 }
 
-/// Seen to fail with k in place of 2 √(r / (1 - r)), and without the clamp at 1: infinite.
+/// Seen to fail with half of k = 2 √(r / (1 - r)), and without the clamp below 1.
 #[test]
 fn a_metal_reflects_its_colour_at_the_normal() {
     let colors = Spectrum::new(0.9, 0.04, 1.0);
@@ -156,8 +157,8 @@ fn seen(material: &dyn Material, uv: Vec2) -> [f32; 3] {
     (bsdf.f(Vec3::Z, Vec3::Z, BxdfFlags::all()) * std::f32::consts::PI).to_array()
 }
 
-/// Images are decoded by the sRGB curve, multiplied by Kd, placed by their options and found beside the MTL file. Seen to fail with the
-/// linear curve, without each option, and with Kd left out.
+/// Images are decoded by the sRGB curve, multiplied by Kd, placed by their options and found beside the MTL file. Seen to fail with
+/// the linear curve, without `-s`, `-o` and `-clamp`, and with Kd left out.
 #[test]
 fn maps_are_images_by_their_options() {
     let folder = folder("materials-maps");
@@ -193,7 +194,7 @@ fn maps_are_images_by_their_options() {
     }
 }
 
-/// What cannot be used is noted, and the colour holds. Seen to fail with notes left out, and with grey for the colour.
+/// What cannot be used is noted, and the colour holds. Seen to fail with notes left out.
 #[test]
 fn images_that_cannot_be_read_are_noted() {
     let folder = folder("materials-notes");
@@ -225,7 +226,8 @@ fn images_that_cannot_be_read_are_noted() {
     assert_eq!(made(&folder, "map_Kd broken.png").1.len(), 1);
 }
 
-/// Keys that no material uses are noted, and only where they would change it. Seen to fail without each of them.
+/// Keys that no material uses are noted, and only where they would change it. Seen to fail with notes left out, and with one key
+/// read as another.
 #[test]
 fn what_is_not_used_is_noted() {
     for (key, lines) in [

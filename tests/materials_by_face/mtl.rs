@@ -56,7 +56,7 @@ fn assert_all(material: &MtlMaterial) {
     assert_eq!(files.concat(), "a.pngb.pngc.pngd.pnge.pngf.pngg.png");
 }
 
-/// Seen to fail with each key bound to its neighbour's field, and with keys of one case alone.
+/// Seen to fail with `Ks`, `Pr` and `map_d` bound to a neighbour's field, and with keys or `newmtl` of one case alone.
 #[test]
 fn keys_stand_in_any_order_and_case() {
     for shift in 0..LINES.len() {
@@ -88,7 +88,7 @@ fn keys_stand_in_any_order_and_case() {
     assert_eq!(good("newmtl x\nNs 1\nNs 2")[0].ns, Some(2.0));
 }
 
-/// Marks, ends of lines, comments and continuations are those of OBJ. Seen to fail with lines split at LF alone.
+/// Marks, ends of lines, comments and continuations are those of OBJ.
 #[test]
 fn text_may_be_written_in_many_ways() {
     let plain = "newmtl a b\nKd 0.25 0.5 1\nnewmtl c\nmap_Kd -s 2 3 4 x y.png\n";
@@ -116,7 +116,7 @@ fn text_may_be_written_in_many_ways() {
     assert_eq!(parse("# nothing\n\n\u{FEFF}"), MtlLibrary::default());
 }
 
-/// Seen to fail with names cut at blanks, and with bytes that are no UTF-8 replaced.
+/// Seen to fail with names of files cut at blanks, and with bytes that are no UTF-8 replaced.
 #[test]
 fn names_are_of_any_text() {
     let names =
@@ -132,7 +132,7 @@ fn names_are_of_any_text() {
     assert_eq!(file(b"map_Kd \"my floor.jpg\""), "my floor.jpg");
 }
 
-/// Seen to fail with an option's numbers taken for the name, with `-mm` reversed, and with all options of equal length.
+/// Seen to fail with `-o` read as `-s`, with `-mm` reversed, and with names cut at blanks.
 #[test]
 fn maps_have_options() {
     let map = |text: &str| good(format!("newmtl x\nmap_Kd {text}"))[0].map_kd.clone().unwrap();
@@ -156,7 +156,7 @@ fn maps_have_options() {
     assert_eq!((fewer.is_clamped, &*fewer.file), (false, "9.png"));
 }
 
-/// Many materials take time that grows with their number only. Seen to fail with names looked for one by one (it takes a minute).
+/// Many materials take time that grows with their number only.
 #[test]
 fn many_materials_are_read() {
     let text: String =
@@ -164,7 +164,7 @@ fn many_materials_are_read() {
     assert_eq!(good(text).len(), 200_000);
 }
 
-/// Files that cannot be read, with whole messages. Seen to fail with messages of the system.
+/// Files that cannot be read, with whole messages.
 #[test]
 fn files_that_cannot_be_read() {
     let folder = folder("mtl-unreadable");

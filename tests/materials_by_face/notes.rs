@@ -6,7 +6,7 @@ fn notes(text: impl AsRef<[u8]>) -> Vec<String> {
     parse(text).notes.iter().map(|note| note.to_string()).collect()
 }
 
-/// Each note whole, with its line. Seen to fail with each kind of note left out.
+/// Each note whole, with its line. Seen to fail with negative colours and with models above 10 taken.
 #[test]
 fn what_is_left_out_is_noted() {
     let color = "expected one or three numbers that are finite and not negative; it is left out";
@@ -62,7 +62,7 @@ fn what_is_left_out_is_noted() {
     );
 }
 
-/// The same thing once a file, at its first line, with a count. Seen to fail with a note for each line.
+/// The same thing once a file, at its first line, with a count. Seen to fail with a note for each line, and without a limit.
 #[test]
 fn notes_stand_once() {
     let text = "newmtl x\nshine 1\nPcr 1\nNs high\nNs low\n".repeat(1000);

@@ -58,8 +58,8 @@ fn assert_seen(scene: &Scene, expected: [[f32; 3]; 5]) {
 
 const RED: [f32; 3] = [0.75, 0.25, 0.125];
 
-/// Of the scene file by name, else of the MTL file, else grey. Seen to fail with the scene's materials after those of the MTL file, with
-/// materials by the order of their triangles, and with the emission of one lost.
+/// Of the scene file by name, else of the MTL file, else grey. Seen to fail with the scene's materials left out, with emission left
+/// out, and with reports for shapes of the file alone.
 #[test]
 fn faces_have_the_materials_that_they_name() {
     let folder = folder("scenes-names");
@@ -100,7 +100,7 @@ fn faces_have_the_materials_that_they_name() {
     assert!(loaded.scene.lights().is_empty());
 }
 
-/// Notes of the MTL file have its name and line. Seen to fail with lines of the material's keys for the material's own.
+/// Notes of the MTL file have its name and line. Seen to fail with notes about images or keys left out.
 #[test]
 fn notes_name_file_and_line() {
     let folder = folder("scenes-notes");
@@ -145,7 +145,7 @@ fn the_first_library_holds() {
     );
 }
 
-/// A shape's own material or emission is that of all faces. Seen to fail with faces first.
+/// A shape's own material or emission is that of all faces. Seen to fail with faces before the emission.
 #[test]
 fn a_shape_overrides_its_faces() {
     let folder = folder("scenes-shapes");
@@ -162,7 +162,8 @@ fn a_shape_overrides_its_faces() {
     }
 }
 
-/// Materials of the MTL file never take the place of others, whatever their names are. Seen to fail with names joined by a slash alone.
+/// Materials of the MTL file never take the place of others, whatever their names are. Seen to fail with names joined by a slash
+/// alone.
 #[test]
 fn equal_names_are_told_apart() {
     let folder = folder("scenes-equal");
@@ -197,7 +198,7 @@ fn equal_names_are_told_apart() {
     }
 }
 
-/// A shape without any material lacks one. Seen to fail with meshes that name none taken for grey.
+/// A shape without any material lacks one.
 #[test]
 fn a_shape_without_materials_is_refused() {
     let folder = folder("scenes-none");
@@ -208,8 +209,8 @@ fn a_shape_without_materials_is_refused() {
     assert_eq!(without_folder(&[error], &folder), [expected]);
 }
 
-/// Faces with `Ke` are lamps on both sides, and scatter light as their material says: a ray sees Ke, and a point in front of a small
-/// lamp has the irradiance Ke A cos θ cos θ' / d². Seen to fail with one side dark, and with the lamp's triangles counted twice.
+/// Faces with `Ke` are lamps on both sides, and scatter light as their material says: a ray sees Ke, and a point in front of a
+/// small lamp has the irradiance Ke A cos θ cos θ' / d². Seen to fail with one side dark, and with the scene's material left out.
 #[test]
 fn faces_with_ke_are_lamps() {
     let folder = folder("scenes-lamps");

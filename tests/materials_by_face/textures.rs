@@ -39,7 +39,8 @@ fn assert_seen(folder: &Path, textures: &str, at: [f32; 2], expected: [f32; 3]) 
     assert!(is_near, "{textures}: {found:?}, expected {expected:?}");
 }
 
-/// Seen to fail with each key left out, and with scale, rotation and offset in another order.
+/// Seen to fail with the curve 2.4, with scale or offset out of order, with the rotation or the turn reversed, and with another
+/// mirror.
 #[test]
 fn image_textures_have_keys() {
     let folder = folder("textures-keys");
@@ -82,8 +83,8 @@ fn image_textures_have_keys() {
     assert_seen(&folder, &with("deep/other.PFM", ""), [0.25, 0.5], [0.25; 3]);
 }
 
-/// Numbers and colours in all pairs; numbers are greys beside colours. Seen to fail with pairs of colours alone, and with constants that
-/// are not folded: a constant out of range was taken.
+/// Numbers and colours in all pairs; numbers are greys beside colours. Seen to fail with pairs of colours alone, with one factor,
+/// with ends exchanged, and with constants that are not folded.
 #[test]
 fn products_and_mixtures_are_of_numbers_or_colours() {
     let folder = folder("textures-pairs");
@@ -115,7 +116,7 @@ fn products_and_mixtures_are_of_numbers_or_colours() {
     );
 }
 
-/// Seen to fail with marks of the table in place of those of the value.
+/// Seen to fail with a key of textures that expects no names.
 #[test]
 fn wrong_textures_are_refused() {
     let folder = folder("textures-refused");
@@ -125,6 +126,7 @@ fn wrong_textures_are_refused() {
     write(&folder, "notes.txt", "no image");
     std::fs::create_dir(folder.join("folder.png")).unwrap();
     let numbers = "expected an array of 2, each a finite number";
+    let mut wrong: Vec<(String, String)> = Vec::new();
     for (rest, message) in [
         ("type = \"image\"", "1:1: [texture.kd] lacks `file`, expected a text in quotes"),
         (
@@ -187,7 +189,7 @@ fn wrong_textures_are_refused() {
         ),
         (
             "type = \"image\"\nfile = \"good.pfm\"\nrotate = inf",
-            "4:10: `texture.kd.rotate` is inf, expected degrees, a finite number",
+            "4:10: `texture.kd.rotate` is inf, expected degrees, finite",
         ),
         (
             "type = \"image\"\nfile = \"good.pfm\"\noffset = [0, nan]",
@@ -220,12 +222,13 @@ fn wrong_textures_are_refused() {
         ),
     ] {
         let found = scene(&folder, &format!("[texture.kd]\n{rest}")).err();
-        assert_eq!(
-            found.unwrap_or_else(|| panic!("accepted: {rest}")),
-            format!("s.toml:{message}"),
-            "{rest}"
-        );
+        let found = found.unwrap_or_else(|| format!("accepted: {rest}"));
+        let expected = format!("s.toml:{message}");
+        if found != expected {
+            wrong.push((found, expected));
+        }
     }
+    assert_eq!(wrong, []);
     // A colour where a number is needed, and a texture below the one that names it.
     let colors = "[texture.i]\ntype = \"image\"\nfile = \"good.pfm\"\n[texture.kd]\ntype = \"mix\"\nfirst = 1\nsecond = 0\namount = ";
     assert_eq!(

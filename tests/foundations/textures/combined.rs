@@ -9,10 +9,10 @@ use lobe::image::{Picture, write_pfm};
 use lobe::interaction::SurfaceInteraction;
 use lobe::texture::{Curve, MixTexture, ProductTexture, Texture, TextureHandle, Textures};
 
-use super::{RED, at};
+use super::{RED, at, folders};
 
-/// Of constants they are constants, stored in place; of others they are what the formula says. Seen to fail with factors added, with
-/// the ends of a mixture exchanged, and with a constant of one end alone.
+/// Of constants they are constants, stored in place; of others they are what the formula says. Seen to fail with one factor alone,
+/// with the ends of a mixture exchanged, and with a constant that is not told or is that of one end.
 #[test]
 fn products_and_mixtures_of_constants_are_constants() {
     let u = |si: &SurfaceInteraction| si.uv().x;
@@ -40,20 +40,20 @@ fn products_and_mixtures_of_constants_are_constants() {
 }
 
 fn file(name: &str, values: &[f32]) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("textures-combined");
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = folders::of_this_run();
     let pixels: Vec<_> = values.iter().map(|&value| Spectrum::new(0.5, value, 1.0)).collect();
     let picture = Picture::new(UVec2::new(2, values.len() as u32 / 2), pixels);
     write_pfm(folder.join(name), &picture).unwrap();
     folder.join(name)
 }
 
-/// An image is decoded once for each curve, by whatever path. Seen to fail with paths as they are written, and with the curve left out
-/// of the key: an image of colours was taken for one of numbers.
+/// An image is decoded once for each curve, by whatever path. Seen to fail with paths as they are written, and with the curve left
+/// out of the key.
 #[test]
 fn images_are_shared() {
     let a = file("a.pfm", &[0.25, 0.5]);
-    let roundabout = a.parent().unwrap().join("../textures-combined/./a.pfm");
+    let folder = a.parent().unwrap();
+    let roundabout = folder.join("..").join(folder.file_name().unwrap()).join("./a.pfm");
     let textures = Textures::default();
     let first = textures.image(&a, Curve::Srgb).unwrap();
     assert!(Arc::ptr_eq(&first, &textures.image(&a, Curve::Srgb).unwrap()));
@@ -69,7 +69,8 @@ fn images_are_shared() {
     assert!(Textures::default().images().is_empty());
 }
 
-/// Values that no texture can have are an error with their place. Seen to fail without the check, and with rows and columns exchanged.
+/// Values that no texture can have are an error with their place. Seen to fail without the check, with infinity taken, and with
+/// rows and columns exchanged.
 #[test]
 fn values_that_are_no_texture_are_refused() {
     for (bad, shown) in

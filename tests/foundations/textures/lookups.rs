@@ -169,7 +169,8 @@ fn coordinate(rng: &mut Rng, side: u32) -> f32 {
     }
 }
 
-/// Beyond 64 bits, and where there is no number at all, a lookup gives a value all the same. Seen to fail (a debug build) with an index added to the largest.
+/// Beyond 64 bits, and where there is no number at all, a lookup gives a value all the same. Seen to fail without the check of
+/// finite coordinates, and with t downwards.
 #[test]
 fn lookups_anywhere_have_values() {
     let values = [0.25, 0.5, 0.75, 1.0, 0.0, 0.125];

@@ -48,7 +48,8 @@ fn assert_near(found: Vec2, expected: [f32; 2], what: impl std::fmt::Debug) {
     );
 }
 
-/// Scaled, then rotated, then moved. Seen to fail with each pair of steps exchanged, and with the rotation reversed.
+/// Scaled, then rotated, then moved. Seen to fail with the scale or the offset before what is there, and with the rotation
+/// reversed.
 #[test]
 fn coordinates_are_scaled_then_rotated_then_moved() {
     let mapping = Mapping::default()

@@ -2,6 +2,8 @@
 
 mod combined;
 mod filtered;
+#[path = "../../folders/mod.rs"]
+mod folders;
 mod lookups;
 mod mappings;
 
