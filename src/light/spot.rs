@@ -99,7 +99,10 @@ impl WideLight for SpotLight {
     }
 }
 
-const MAX: f64 = MAX_COORDINATE as f64;
+/// [`MAX_COORDINATE`] as the decimal that it was rounded from.
+const MAX: f64 = 1e12;
+const _: () = assert!(MAX as f32 == MAX_COORDINATE);
+
 const POSITION: Key<Vec3> = Key::new("position", "where it is, in world space").range(-MAX..=MAX);
 const LOOK_AT: Key<Vec3> =
     Key::new("look_at", "a point in the middle of its cone").range(-MAX..=MAX);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, Vec2};
 
-use super::map::{CellPoint, Map};
+use super::map::{CellPoint, Corners, Map};
 use super::orientation::Place;
 use crate::sampling::{Discrete2d, bilinear};
 
@@ -26,7 +26,7 @@ impl Density {
         let edges: Box<[f64]> = (0..=size.y).map(|row| map.edge(row)).collect();
         let weight = |column: u32, row: u32| {
             let [upper, lower] = [row, row + 1].map(|edge| edges[edge as usize]);
-            let luminances = map.luminances([column, row].into());
+            let luminances = map.luminances(&map.corners([column, row].into()));
             luminances.into_iter().flatten().sum::<f64>() * (upper - lower)
         };
         Some(Self { cells: Discrete2d::new(size, weight)?, edges })
@@ -36,21 +36,22 @@ impl Density {
     #[inline]
     pub fn sample(&self, map: &Map, u: Vec2) -> (f64, f64) {
         let drawn = self.cells.sample(u);
-        let within = bilinear::sample(drawn.within, map.luminances(drawn.cell));
+        let corners = map.corners(drawn.cell);
+        let within = bilinear::sample(drawn.within, map.luminances(&corners));
         let [upper, lower] = self.edges_of(drawn.cell.y);
         let x = (f64::from(drawn.cell.x) + 0.5 + within.x) / f64::from(map.cells().x);
         (if x < 1.0 { x } else { x - 1.0 }, upper + (lower - upper) * within.y)
     }
 
-    /// Density over solid angle at a point of a cell.
+    /// Density over solid angle at a point of a cell with these corners.
     #[inline]
-    pub fn pdf(&self, map: &Map, place: &Place, point: &CellPoint) -> f32 {
+    pub fn pdf(&self, map: &Map, place: &Place, point: &CellPoint, corners: &Corners) -> f32 {
         let probability = self.cells.probability(point.cell);
         let [upper, lower] = self.edges_of(point.cell.y);
         let solid_angle = TAU / f64::from(map.cells().x) * (upper - lower);
         let t = ((upper - place.z) / (upper - lower)).clamp(0.0, 1.0);
         let within = DVec2::new(point.within.x, t);
-        let pdf = bilinear::pdf(within, map.luminances(point.cell));
+        let pdf = bilinear::pdf(within, map.luminances(corners));
         (probability * pdf / solid_angle) as f32
     }
 

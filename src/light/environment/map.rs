@@ -31,6 +31,9 @@ pub struct CellPoint {
     pub within: DVec2,
 }
 
+/// Pixels around a cell: `[row][column]`.
+pub type Corners = [[Spectrum; 2]; 2];
+
 impl Map {
     /// Checks the pixels. Codes of PNG and JPEG are those of sRGB.
     pub fn new(image: &Image, scale: Spectrum) -> Result<Self, EnvironmentError> {
@@ -96,22 +99,31 @@ impl Map {
         (PI * (f64::from(row) - 0.5) / rows).clamp(0.0, PI)
     }
 
-    /// The radiance at a point of a cell.
+    /// The pixels around a cell.
     #[inline]
-    pub fn radiance(&self, point: &CellPoint) -> Spectrum {
+    pub fn corners(&self, cell: UVec2) -> Corners {
+        let size = self.texels.size();
+        let right = if cell.x + 1 < size.x { cell.x + 1 } else { 0 };
+        let rows = [cell.y.saturating_sub(1), cell.y.min(size.y - 1)];
+        rows.map(|row| [cell.x, right].map(|column| self.texels.at(column, row)))
+    }
+
+    /// The radiance at a point of a cell with these corners.
+    #[inline]
+    pub fn radiance(&self, point: &CellPoint, corners: &Corners) -> Spectrum {
         let [s, t] = point.within.as_vec2().to_array();
-        let [[a, b], [c, d]] = self.corners(point.cell);
+        let [[a, b], [c, d]] = *corners;
         // Never below 0, and exact between equal pixels.
         let (upper, lower) = (a + (b - a) * s, c + (d - c) * s);
         (upper + (lower - upper) * t) * self.scale
     }
 
-    /// Luminances of a cell's corners: `[row][column]`. Above 0 where any band is, since f64 does not underflow.
+    /// The luminance of each corner. Above 0 where any band is, since f64 does not underflow.
     #[inline]
-    pub fn luminances(&self, cell: UVec2) -> [[f64; 2]; 2] {
+    pub fn luminances(&self, corners: &Corners) -> [[f64; 2]; 2] {
         let luminance =
             |pixel: Spectrum| DVec3::from(pixel.to_array().map(f64::from)).dot(self.luminance);
-        self.corners(cell).map(|row| row.map(luminance))
+        corners.map(|row| row.map(luminance))
     }
 
     /// Mean over the sphere.
@@ -141,13 +153,5 @@ impl Map {
         }
         let lower = (to.sin() - from.sin()) / (to - from) - to.cos();
         [all - lower, lower]
-    }
-
-    #[inline]
-    fn corners(&self, cell: UVec2) -> [[Spectrum; 2]; 2] {
-        let size = self.texels.size();
-        let right = if cell.x + 1 < size.x { cell.x + 1 } else { 0 };
-        let rows = [cell.y.saturating_sub(1), cell.y.min(size.y - 1)];
-        rows.map(|row| [cell.x, right].map(|column| self.texels.at(column, row)))
     }
 }

@@ -13,7 +13,7 @@ use glam::{Quat, Vec2, Vec3};
 
 pub use error::EnvironmentError;
 
-use super::{BoundingSphere, Light, LightHit, LightSample, Read};
+use super::{BoundingSphere, Emitted, EscapedRays, Light, LightHit, LightSample, Read};
 use crate::image::Image;
 use crate::params::{Factor, Fault, Handedness, Key, Kind, Rotation, Shown, Table};
 use crate::spectrum::Spectrum;
@@ -111,8 +111,9 @@ impl EnvironmentLight {
     fn radiance_and_pdf(&self, wi: Vec3) -> (Spectrum, f32) {
         let place = self.orientation.place(wi);
         let point = self.map.cell_point(&place);
-        let pdf = self.density.as_ref().map_or(0.0, |d| d.pdf(&self.map, &place, &point));
-        (self.map.radiance(&point), pdf)
+        let corners = self.map.corners(point.cell);
+        let pdf = |density: &Density| density.pdf(&self.map, &place, &point, &corners);
+        (self.map.radiance(&point, &corners), self.density.as_ref().map_or(0.0, pdf))
     }
 }
 
@@ -146,12 +147,23 @@ impl Light for EnvironmentLight {
 
     #[inline]
     fn le(&self, hit: &LightHit) -> Spectrum {
-        self.map.radiance(&self.map.cell_point(&self.orientation.place(hit.wi)))
+        let point = self.map.cell_point(&self.orientation.place(hit.wi));
+        self.map.radiance(&point, &self.map.corners(point.cell))
     }
 
     /// 4π² r² times the mean radiance, as of a sky.
     fn power(&self, scene: &BoundingSphere) -> Option<Spectrum> {
         Some(self.mean * (4.0 * PI * PI * scene.radius * scene.radius))
+    }
+
+    /// Finds the pixels of a ray once for both numbers.
+    fn escaped_block(&self, rays: &EscapedRays, emitted: &mut Emitted) {
+        for i in 0..rays.len() {
+            let hit = rays.get(i);
+            let both = || self.radiance_and_pdf(hit.wi);
+            let (le, pdf) = if rays.needs_pdf() { both() } else { (self.le(&hit), 1.0) };
+            emitted.set(i, le, pdf);
+        }
     }
 }
 
@@ -167,7 +179,7 @@ const ROTATE: Key<Option<Rotation>> =
 /// `type = "environment"`
 pub(super) const KIND: Kind<Read> = Kind {
     name: "environment",
-    meaning: "From all around, by an image that is taken by an equirectangular camera or lies as its pictures do",
+    meaning: "From all around, by an equirectangular image",
     keys: &[&FILE, &SCALE, &ROTATE, &Handedness::KEY],
     read,
 };
@@ -192,4 +204,46 @@ fn read(table: &Table) -> Result<Arc<dyn Light>, Fault> {
 struct Unfit {
     file: PathBuf,
     error: EnvironmentError,
+}
+
+#[cfg(test)]
+mod tests {
+    use std::array::from_fn;
+
+    use bytemuck::Zeroable;
+    use glam::UVec2;
+
+    use super::*;
+    use crate::image::Encoding;
+    use crate::simd::{ROW, Rows};
+
+    /// A block has the numbers of its rays, to the bit, with densities and without.
+    #[test]
+    fn a_block_of_rays_is_each_of_them() {
+        let size = UVec2::new(5, 4);
+        let pixels = (0..20).map(|i| Spectrum::new(i as f32, 1.0, (i % 3) as f32)).collect();
+        let encoding = Encoding::Linear;
+        let image = Image { size, pixels, variance: None, degrees_of_freedom: None, encoding };
+        let light = EnvironmentLight::new(&image, &EnvironmentSettings::default()).unwrap();
+        let (origin, mut wi) = (Rows::splat(0.0), Rows::splat(0.0));
+        for i in 0..ROW {
+            let turn: [f32; 3] = from_fn(|axis| (i as f32 * [0.71, 1.3, 2.9][axis]).sin());
+            wi.set(i, Vec3::from(turn).normalize().to_array());
+        }
+        for (len, needs_pdf) in [(ROW, true), (ROW, false), (3, true), (0, true)] {
+            let mut emitted = Emitted::zeroed();
+            let rays = EscapedRays { len, origin: &origin, wi: &wi, needs_pdf };
+            light.escaped_block(&rays, &mut emitted);
+            for i in 0..ROW {
+                let hit = LightHit::outside(Vec3::ZERO, wi.get(i).into());
+                let (le, pdf) = emitted.get(i);
+                if i < len {
+                    assert_eq!(le, light.le(&hit), "ray {i} of {len}");
+                    assert!(!needs_pdf || pdf == light.pdf_li(&hit), "ray {i} of {len}");
+                } else {
+                    assert!(le.is_black(), "ray {i} of {len}");
+                }
+            }
+        }
+    }
 }
