@@ -326,7 +326,10 @@ fn missing_keys() {
             "[material.\"\"]\nkd = [0, 0, 0]",
             "s.toml:1:1: [material.\"\"] lacks `type`, expected \"matte\", \"mirror\", \"glass\", \"thin-glass\", \"metal\", \"plastic\", \"translucent\", \"retro\" or \"mix\"",
         ),
-        ("[texture.t]", "s.toml:1:1: [texture.t] lacks `type`, expected \"constant\""),
+        (
+            "[texture.t]",
+            "s.toml:1:1: [texture.t] lacks `type`, expected \"constant\", \"image\", \"product\" or \"mix\"",
+        ),
         (
             "\n[texture.t]\ntype = \"constant\"",
             "s.toml:2:1: [texture.t] lacks `value`, expected a number or [red, green, blue], all finite",
@@ -823,7 +826,7 @@ fn write_pfm(path: &Path, [columns, rows]: [usize; 2], pixels: &[[f32; 3]]) {
 }
 
 /// Environment maps and spot lights of files: their files are found beside the scene, and all keys have their effect. Seen to
-/// fail with the scale left out, with handedness left out, and with the falloff at 25 degrees for all cones.
+/// fail with the scale, the rotation and the handedness left out, one at a time, and with the falloff at 25 degrees for all cones.
 #[test]
 fn a_file_with_an_environment_gives_its_light() {
     let folder = folder("environment");

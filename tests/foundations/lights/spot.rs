@@ -28,7 +28,7 @@ fn falloff(angle: f64, [cone, start]: [f32; 2]) -> f64 {
 }
 
 /// I / d² times the falloff, from everywhere, close to the border too. Seen to fail with 1 - cos from the dot product in f32,
-/// for the narrow cone, and with the third power.
+/// for the narrow cone, with the third power, and with a falloff from the middle on.
 #[test]
 fn intensity_fades_towards_the_border() {
     let mut lit = 0;
@@ -86,7 +86,7 @@ fn power_is_the_integral_of_intensity() {
     }
 }
 
-/// At the light itself, behind it, and what is no cone.
+/// At the light itself, behind it, and what is no cone. Seen to fail with light outside of the cone, and with any cone let pass.
 #[test]
 fn there_is_no_light_where_none_can_be() {
     let new = |direction, cone, start| SpotLight::new(P, direction, L, cone, start);

@@ -34,7 +34,8 @@ fn cells(size: UVec2) -> impl Iterator<Item = UVec2> {
     (0..size.x * size.y).map(move |index| UVec2::new(index % size.x, index / size.x))
 }
 
-/// Probabilities add up to 1, are those of the weights, and are above 0 where a weight is, of whatever size.
+/// Probabilities add up to 1, are those of the weights, and are above 0 where a weight is, of whatever size. Seen to fail with
+/// shares rounded down to 0.
 #[test]
 fn probabilities_are_those_of_weights() {
     for trial in 0..60 {
@@ -83,7 +84,8 @@ fn cells_are_drawn_by_weight_and_what_is_left_is_uniform() {
     }
 }
 
-/// The smallest and the largest u among them. Seen to fail with the last share's end at 0 where the others are empty.
+/// The smallest and the largest u among them. Seen to fail with the last share's end at 0 where the others are
+/// empty, and with positions in a cell exchanged.
 #[test]
 fn inverse_leads_back() {
     for trial in 0..60 {
@@ -129,7 +131,7 @@ fn corners(trial: u64) -> [[f64; 2]; 2] {
 }
 
 /// Triple: inverse, integral, density.
-/// Seen to fail with the corners of a column exchanged in `sample`, and with `pdf` of a factor of 2.
+/// Seen to fail with left and right exchanged in `sample`, with the root of the inverse left out, and with half the density.
 #[test]
 fn bilinear_is_a_triple() {
     const TRIALS: u64 = 24;
