@@ -105,7 +105,7 @@ const _: () = assert!(MAX as f32 == MAX_COORDINATE);
 
 const POSITION: Key<Vec3> = Key::new("position", "where it is, in world space").range(-MAX..=MAX);
 const LOOK_AT: Key<Vec3> =
-    Key::new("look_at", "a point in the middle of its cone").range(-MAX..=MAX);
+    Key::new("look_at", "a point in the middle of its cone").range(-MAX..=MAX).default(Vec3::ZERO);
 const INTENSITY: Key<Spectrum> =
     Key::new("intensity", "radiant intensity in the middle, in W / sr").at_least(0.0);
 const CONE_ANGLE: Key<f32> = Key::new("cone_angle", "from the middle of the cone to its border")
