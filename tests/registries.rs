@@ -29,8 +29,14 @@ fn value(key: &dyn AnyKey) -> String {
     if key.name() == "crop" {
         return "[0, 0, 1, 1]".into();
     }
+    if key.name() == "file" {
+        return format!("{IMAGE:?}");
+    }
     key.default_text().filter(|default| default != "none").unwrap_or_else(|| key.example())
 }
+
+/// An image of one pixel, beside the scenes.
+const IMAGE: &str = "one.pfm";
 
 /// A scene with one table of this kind that contains these lines.
 fn scene(section: &dyn AnySection, kind: &Kind<()>, lines: &str) -> String {
@@ -43,8 +49,16 @@ fn scene(section: &dyn AnySection, kind: &Kind<()>, lines: &str) -> String {
 
 /// The error in a scene before its meshes are read. `test` names the file that it is read from.
 fn fault(test: &str, text: &str) -> Option<String> {
-    let path = folders::of_this_run().join(format!("{test}.toml"));
+    let folder = folders::of_this_run();
+    let path = folder.join(format!("{test}.toml"));
     std::fs::write(&path, text).unwrap();
+    // Tests write it at the same time: whole, by one rename.
+    if !folder.join(IMAGE).exists() {
+        let pixel = [1.0_f32; 3].map(f32::to_le_bytes).concat();
+        let image = folder.join(format!("{test}.pfm"));
+        std::fs::write(&image, [&b"PF\n1 1\n-1\n"[..], &pixel].concat()).unwrap();
+        std::fs::rename(&image, folder.join(IMAGE)).unwrap();
+    }
     read_settings(&path, &[]).err().map(|error| error.to_string())
 }
 

@@ -13,7 +13,7 @@ use lobe::film::{Filter, GaussianFilter};
 use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::image::{Display, Window};
 use lobe::integrator::{ChapterIntegrator, Integrator, PathIntegrator};
-use lobe::light::{Light, LightStrategy};
+use lobe::light::{Light, LightHit, LightStrategy};
 use lobe::render::SamplerSettings;
 use lobe::sampling::SamplerKind;
 use lobe::scene_file::{LoadedScene, SceneFileError, parse_scene, read_scene};
@@ -340,7 +340,7 @@ fn missing_keys() {
         ),
         (
             "[light.l]",
-            "s.toml:1:1: [light.l] lacks `type`, expected \"point\", \"distant\" or \"sky\"",
+            "s.toml:1:1: [light.l] lacks `type`, expected \"point\", \"spot\", \"distant\", \"sky\" or \"environment\"",
         ),
         (
             "[light.l]\ntype = \"point\"\nintensity = [1, 1, 1]",
@@ -817,4 +817,155 @@ fn distant_lights_shine_along_their_direction() {
     let rendered = lobe::render(&loaded.scene, &loaded.view, &loaded.settings, &options).unwrap();
     let expected = 0.5 / std::f32::consts::PI;
     assert!(rendered.picture.color.iter().all(|c| (c.to_array()[0] - expected).abs() < 1e-6));
+}
+
+/// Writes a PFM file of linear radiance, with rows from the bottom, as the format has them.
+fn write_pfm(path: &Path, [columns, rows]: [usize; 2], pixels: &[[f32; 3]]) {
+    assert_eq!(pixels.len(), columns * rows);
+    let mut bytes = format!("PF\n{columns} {rows}\n-1\n").into_bytes();
+    bytes.extend(pixels.iter().flatten().flat_map(|band| band.to_le_bytes()));
+    std::fs::write(path, bytes).unwrap();
+}
+
+/// Environment maps and spot lights of files: their files are found beside the scene, and all keys have their effect. Seen to
+/// fail with the scale, the rotation and the handedness left out, one at a time, and with the falloff at 25 degrees for all cones.
+#[test]
+fn a_file_with_an_environment_gives_its_light() {
+    let folder = folder("environment");
+    // The lower row, then the upper one.
+    let map = [[0.0; 3], [1.0; 3], [2.0; 3], [3.0; 3], [4.0; 3], [5.0; 3], [6.0; 3], [7.0; 3]];
+    write_pfm(&folder.join("sky.pfm"), [4, 2], &map);
+    let read = |keys: &str| {
+        let path = folder.join("scene.toml");
+        std::fs::write(&path, format!("[light.l]\n{keys}")).unwrap();
+        let LoadedScene { scene, .. } = read_scene(&path, &[]).unwrap();
+        scene.lights()[0].clone()
+    };
+    // Centres of the second and third column of the upper row: an eighth of a turn beside +z.
+    let le = |light: &dyn Light, x: f32| {
+        let wi = Vec3::new(x, 0.5_f32.sqrt(), 0.5).normalize();
+        light.le(&LightHit::outside(Vec3::ZERO, wi)).to_array()
+    };
+    let plain = read("type = \"environment\"\nfile = \"sky.pfm\"");
+    let near = |found: [f32; 3], expected: [f32; 3]| {
+        let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        assert!(off < 1e-5, "{found:?}, expected {expected:?}");
+    };
+    near(le(&*plain, 0.5), [6.0; 3]);
+    near(le(&*plain, -0.5), [5.0; 3]);
+    let keys = "scale = [1, 2, 0.5]\nhandedness = \"right\"\nrotate = [0, 1, 0, 90]";
+    let turned = read(&format!("type = \"environment\"\nfile = \"sky.pfm\"\n{keys}"));
+    // Forward is +x then, and right is +z.
+    near(le(&*turned, 0.5), [6.0, 12.0, 3.0]);
+    let louder = read("type = \"environment\"\nfile = \"sky.pfm\"\nscale = 3");
+    near(le(&*louder, 0.5), [18.0; 3]);
+
+    let spot =
+        "type = \"spot\"\nposition = [0, 2, 0]\nlook_at = [0, -5, 0]\nintensity = [8, 4, 2]\n";
+    let at = |light: &dyn Light, degrees: f32| {
+        let p = Vec3::new(2.0 * degrees.to_radians().tan(), 0.0, 0.0);
+        let d2 = 4.0 + p.x * p.x;
+        light.sample_li(p, Vec2::ZERO).map(|sample| sample.li * d2).map(|li| li.to_array())
+    };
+    let plain = read(spot);
+    near(at(&*plain, 0.0).unwrap(), [8.0, 4.0, 2.0]);
+    near(at(&*plain, 24.9).unwrap(), [8.0, 4.0, 2.0]);
+    assert!(at(&*plain, 25.5).unwrap()[0] < 7.9 && at(&*plain, 30.1).is_none());
+    let narrow = read(&format!("{spot}cone_angle = 12"));
+    near(at(&*narrow, 9.9).unwrap(), [8.0, 4.0, 2.0]);
+    assert!(at(&*narrow, 11.0).unwrap()[0] < 7.9 && at(&*narrow, 12.1).is_none());
+    let hard = read(&format!("{spot}cone_angle = 12\nfalloff_start = 12"));
+    near(at(&*hard, 11.9).unwrap(), [8.0, 4.0, 2.0]);
+}
+
+/// Whole messages. Seen to fail with a falloff outside of the cone let pass.
+#[test]
+fn wrong_lights() {
+    let folder = folder("wrong-lights");
+    let path = |name: &str| folder.join(name).display().to_string();
+    write_pfm(&folder.join("negative.pfm"), [2, 1], &[[1.0; 3], [1.0, -2.0, 0.0]]);
+    write_pfm(&folder.join("nan.pfm"), [1, 1], &[[f32::NAN, 0.0, 0.0]]);
+    write_pfm(&folder.join("huge.pfm"), [1, 1], &[[1e38; 3]]);
+    std::fs::write(folder.join("text.png"), "no picture").unwrap();
+    let environment = |file: &str, more: &str| {
+        format!("[light.l]\ntype = \"environment\"\nfile = {:?}\n{more}", path(file))
+    };
+    let unfit = |name: &str, reason: &str| {
+        format!("s.toml:3:8: cannot use `{}` as an environment map: {reason}", path(name))
+    };
+    let spot = |more: &str| {
+        format!(
+            "[light.l]\ntype = \"spot\"\nposition = [0, 1, 0]\nlook_at = [0, 0, 0]\nintensity = [1, 1, 1]\n{more}"
+        )
+    };
+    for (text, message) in [
+        (
+            "[light.l]\ntype = \"environment\"".to_owned(),
+            "s.toml:1:1: [light.l] lacks `file`, expected a text in quotes".to_owned(),
+        ),
+        (
+            environment("none.exr", ""),
+            format!("s.toml:3:8: cannot read `{}`: there is no such file", path("none.exr")),
+        ),
+        (
+            environment("sky.hdr", ""),
+            format!(
+                "s.toml:3:8: cannot read `{}`: its name has to end in .exr, .jpg, .jpeg, .pfm or .png",
+                path("sky.hdr")
+            ),
+        ),
+        (
+            environment("negative.pfm", ""),
+            unfit("negative.pfm", "pixel (1, 0) is [1.0, -2.0, 0.0], expected radiance that is finite and at least 0"),
+        ),
+        (
+            environment("nan.pfm", ""),
+            unfit("nan.pfm", "pixel (0, 0) is [NaN, 0.0, 0.0], expected radiance that is finite and at least 0"),
+        ),
+        (
+            environment("huge.pfm", "scale = 100"),
+            unfit("huge.pfm", "pixel (0, 0) is [1e38, 1e38, 1e38], which a scale of [100.0, 100.0, 100.0] makes infinite"),
+        ),
+        (
+            environment("nan.pfm", "scale = -1"),
+            "s.toml:4:9: `light.l.scale` is -1, expected a number or [red, green, blue], each a finite number of at least 0".into(),
+        ),
+        (
+            environment("nan.pfm", "rotate = [0, 0, 0, 90]"),
+            "s.toml:4:10: `light.l.rotate` is [0, 0, 0, 90], expected [x, y, z, degrees], an axis that is not 0 and an angle, all finite".into(),
+        ),
+        (
+            environment("nan.pfm", "handedness = \"both\""),
+            "s.toml:4:14: `light.l.handedness` is \"both\", expected \"left\" or \"right\"".into(),
+        ),
+        (
+            spot("cone_angle = 181"),
+            "s.toml:6:14: `light.l.cone_angle` is 181, expected degrees above 0 and up to 180".into(),
+        ),
+        (
+            spot("cone_angle = 0"),
+            "s.toml:6:14: `light.l.cone_angle` is 0, expected degrees above 0 and up to 180".into(),
+        ),
+        (
+            spot("falloff_start = 31"),
+            "s.toml:6:17: falloff_start is 31 degrees, expected at most cone_angle, which is 30".into(),
+        ),
+        (
+            spot("falloff_start = -1"),
+            "s.toml:6:17: `light.l.falloff_start` is -1, expected degrees from 0 to 180".into(),
+        ),
+        (
+            "[light.l]\ntype = \"spot\"\nposition = [0, 1, 0]\nlook_at = [0, 1, 0]\nintensity = [1, 1, 1]".into(),
+            "s.toml:4:11: position and look_at are the same point".into(),
+        ),
+        (
+            "[light.l]\ntype = \"spot\"\nlook_at = [0, 1, 0]\nintensity = [1, 1, 1]".into(),
+            "s.toml:1:1: [light.l] lacks `position`, expected [x, y, z], each from -1e12 to 1e12".into(),
+        ),
+    ] {
+        assert_eq!(refused(&text, &[]), message, "for {text:?}");
+    }
+    let text = environment("text.png", "");
+    let start = format!("s.toml:3:8: cannot read `{}`: ", path("text.png"));
+    assert!(refused(&text, &[]).starts_with(&start), "{}", refused(&text, &[]));
 }

@@ -6,10 +6,10 @@ use glam::{UVec2, Vec2, Vec3};
 
 use super::block::{CameraSamples, WideCamera, ray_of_one, rays_wide};
 use super::error::CameraError;
-use super::placement::{Axes, EYE, HANDEDNESS, Handedness, LOOK_AT, UP, check_resolution, fault};
+use super::placement::{Axes, EYE, HANDEDNESS, LOOK_AT, UP, check_resolution, fault};
 use super::traits::{Camera, Read};
 use crate::geometry::{PixelCone, Ray, Xyz};
-use crate::params::{Fault, Kind, Table};
+use crate::params::{Fault, Handedness, Kind, Table};
 use crate::simd::{Float, four};
 
 /// How an equirectangular camera stands. The defaults stand at the origin with +z in the middle of the image.

@@ -64,10 +64,10 @@ pub use equirectangular::{EquirectangularCamera, EquirectangularSettings};
 pub use error::CameraError;
 pub use orthographic::{OrthographicCamera, OrthographicSettings};
 pub use perspective::{PerspectiveCamera, PerspectiveSettings};
-pub use placement::Handedness;
 pub(crate) use traits::prepare;
 pub use traits::{Camera, Read};
 
+pub use crate::params::Handedness;
 use crate::params::Kind;
 
 /// All kinds of cameras.

@@ -5,27 +5,9 @@ use glam::{DVec3, UVec2, Vec3};
 use super::error::CameraError;
 use crate::geometry::Xyz;
 use crate::geometry::float::MAX_COORDINATE;
-use crate::params::{Choice, Fault, Key, Table};
+use crate::params::{Fault, Handedness, Key, Table};
 use crate::sampling::concentric_disk;
 use crate::simd::Float;
-
-/// On which side of the view the right of the image lies: how a world's axes were meant.
-///
-/// With x to the right and y up, z points away from the viewer in a left-handed space and towards the viewer in a
-/// right-handed one. In a world that was made in the other kind, a camera shows everything mirrored, text included.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Handedness {
-    /// Left-handed, as in PBRT: the right of the image is up × view.
-    #[default]
-    Left,
-    /// Right-handed, as in Blender, glTF and most other programs: the right of the image is view × up.
-    Right,
-}
-
-impl Choice for Handedness {
-    const CHOICES: &'static [(&'static str, Self)] =
-        &[("left", Self::Left), ("right", Self::Right)];
-}
 
 /// [`MAX_COORDINATE`] as the decimal that it was rounded from.
 pub(super) const MAX_COORDINATE_F64: f64 = 1e12;
@@ -39,11 +21,7 @@ pub(super) const LOOK_AT: Key<Vec3> = Key::new("look_at", "a point in the middle
     .default(Vec3::Z);
 pub(super) const UP: Key<Vec3> =
     Key::new("up", "a direction that is up in the image").default(Vec3::Y);
-pub(super) const HANDEDNESS: Key<Handedness> = Key::new(
-    "handedness",
-    "of the world: \"left\" as in PBRT, \"right\" as in Blender, glTF and most other programs",
-)
-.default(Handedness::Left);
+pub(super) const HANDEDNESS: Key<Handedness> = Handedness::KEY;
 pub(super) const LENS_RADIUS: Key<f32> =
     Key::new("lens_radius", "radius of the lens, in scene units; 0 for a pinhole")
         .range(0.0..=MAX_COORDINATE_F64)

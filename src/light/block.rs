@@ -273,7 +273,7 @@ mod tests {
     use std::array::from_fn;
 
     use super::*;
-    use crate::light::{AreaLight, Light, PointLight, SkyLight};
+    use crate::light::{AreaLight, Light, PointLight, SkyLight, SpotLight};
     use crate::shape::TriangleMesh;
 
     /// Pseudorandom numbers in `[0, 1)`, of 24 bits.
@@ -302,8 +302,9 @@ mod tests {
             mesh.positions.iter_mut().for_each(|p| *p *= scale);
             mesh
         };
-        let lights: [&dyn Light; 8] = [
+        let lights: [&dyn Light; 9] = [
             &PointLight::new(position, l),
+            &SpotLight::new(position, Vec3::NEG_ONE, l, 70.0, 30.0).unwrap(),
             &SkyLight::new(l),
             &area(&lamp, false),
             &area(&lamp, true),

@@ -18,25 +18,30 @@
 mod area;
 mod block;
 mod distant;
+mod environment;
 mod light_sampler;
 mod point;
 mod rectangle;
 mod sample;
 mod sky;
+mod spot;
 mod strategy;
 mod traits;
 
 pub use area::AreaLight;
 pub use block::{Emitted, EscapedRays, LightSamples, Receivers};
 pub use distant::DistantLight;
+pub use environment::{EnvironmentError, EnvironmentLight, EnvironmentSettings};
 pub use light_sampler::{LightChoice, LightSampler};
 pub use point::PointLight;
 pub use sample::{LightHit, LightSample};
 pub use sky::SkyLight;
+pub use spot::SpotLight;
 pub use strategy::LightStrategy;
 pub use traits::{BoundingSphere, Light, Read};
 
 use crate::params::Kind;
 
 /// All kinds of lights of scene files. Surfaces that emit are shapes.
-pub static LIGHTS: &[Kind<Read>] = &[point::KIND, distant::KIND, sky::KIND];
+pub static LIGHTS: &[Kind<Read>] =
+    &[point::KIND, spot::KIND, distant::KIND, sky::KIND, environment::KIND];

@@ -47,6 +47,7 @@
 
 mod choice;
 mod error;
+mod handedness;
 mod hint;
 mod key;
 mod kind;
@@ -59,13 +60,14 @@ mod tree;
 
 pub use choice::Choice;
 pub use error::{Fault, Problem};
+pub use handedness::Handedness;
 pub use hint::hint;
 pub(crate) use hint::one_of;
 pub use key::{AnyKey, Key};
 pub use kind::{AnySection, Kind, Section};
 pub use limits::Limits;
 pub use param::Param;
-pub use quantity::{Direction, Rotation, Scale};
+pub use quantity::{Direction, Factor, Rotation, Scale};
 pub(crate) use shown::shortened;
 pub use shown::{Shown, quoted};
 pub use table::{Document, Table};

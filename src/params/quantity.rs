@@ -1,4 +1,4 @@
-//! [`Direction`], [`Scale`], [`Rotation`]: geometric parameters.
+//! [`Direction`], [`Scale`], [`Rotation`], [`Factor`]: parameters of several numbers.
 
 use glam::{Quat, Vec3};
 
@@ -6,6 +6,7 @@ use super::limits::Limits;
 use super::param::Param;
 use super::tree::Value;
 use crate::geometry::unit;
+use crate::spectrum::Spectrum;
 
 /// A unit vector, given with any length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,5 +89,29 @@ impl Param for Rotation {
 
     fn example(_: &Limits) -> Self {
         Self { axis: Vec3::Y, degrees: 90.0 }
+    }
+}
+
+/// A factor for each band; a single number sets all three.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Factor(pub Spectrum);
+
+impl Param for Factor {
+    fn from_value(value: &Value, limits: &Limits) -> Option<Self> {
+        let number = f32::from_value(value, limits).map(Spectrum::splat);
+        number.or_else(|| Spectrum::from_value(value, limits)).map(Self)
+    }
+
+    fn to_value(&self) -> Option<Value> {
+        let [r, g, b] = self.0.to_array();
+        if r == g && g == b { r.to_value() } else { self.0.to_value() }
+    }
+
+    fn expected(limits: &Limits) -> String {
+        format!("a number or [red, green, blue], each {}", limits.describe_each())
+    }
+
+    fn example(_: &Limits) -> Self {
+        Self(Spectrum::splat(0.5))
     }
 }

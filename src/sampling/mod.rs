@@ -6,7 +6,7 @@
 //!   [`SobolSampler`], [`BlueNoiseSampler`].
 //! - A warp takes such a point to a disk, sphere, cone or shape. Each has `sample`, `pdf` and
 //!   `inverse`.
-//! - [`Discrete`] draws an index by weight.
+//! - [`Discrete`] draws an index by weight, [`Discrete2d`] a cell of a grid.
 //!
 //! An estimate of an integral is the mean of f / pdf over samples. For example the irradiance of a
 //! surface under a sky of radiance cos θ, ∫ cos² θ dω = 2π/3:
@@ -29,6 +29,7 @@
 
 mod blue_noise;
 mod discrete;
+mod discrete_2d;
 mod hash;
 mod independent;
 mod kind;
@@ -44,6 +45,7 @@ mod wide;
 
 pub use blue_noise::BlueNoiseSampler;
 pub use discrete::Discrete;
+pub use discrete_2d::{Cell, Discrete2d};
 pub(crate) use hash::{mix, unit_float};
 pub use independent::IndependentSampler;
 pub use kind::{Make, SampleSets, SamplerKind};
@@ -53,7 +55,7 @@ pub use sobol::SobolSampler;
 pub use stratified::StratifiedSampler;
 pub(crate) use warp::{MIN_SOLID_ANGLE, Seen};
 pub use warp::{
-    SphericalRectangle, concentric_disk, cosine_hemisphere, uniform_cone, uniform_disk,
+    SphericalRectangle, bilinear, concentric_disk, cosine_hemisphere, uniform_cone, uniform_disk,
     uniform_hemisphere, uniform_sphere, uniform_triangle,
 };
 

@@ -10,6 +10,7 @@ mod statistics;
 mod closed_forms;
 mod coverage;
 mod dimensions;
+mod environment;
 mod estimators;
 mod film_error;
 mod random_scenes;

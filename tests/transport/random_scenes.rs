@@ -1,8 +1,9 @@
 //! A thousand random scenes, most of them absurd: every sample is finite.
 
 use lobe::glam::{UVec2, Vec3};
+use lobe::image::{Encoding, Image};
 use lobe::integrator::{DirectIntegrator, PathIntegrator};
-use lobe::light::{DistantLight, LightStrategy, SkyLight};
+use lobe::light::{DistantLight, EnvironmentLight, LightStrategy, SkyLight, SpotLight};
 use lobe::render::SamplerSettings;
 use lobe::sampling::SamplerKind;
 use lobe::scene::{Emission, Scene};
@@ -91,6 +92,16 @@ fn mesh(rng: &mut Rng) -> TriangleMesh {
     }
 }
 
+/// A map of a few pixels, some of them black.
+fn environment(rng: &mut Rng) -> EnvironmentLight {
+    let size = UVec2::new(1 + rng.below(5) as u32, 1 + rng.below(5) as u32);
+    let pixel = |_| if rng.below(3) == 0 { Spectrum::BLACK } else { rng.light() };
+    let pixels = (0..size.x * size.y).map(pixel).collect();
+    let encoding = Encoding::Linear;
+    let image = Image { size, pixels, variance: None, degrees_of_freedom: None, encoding };
+    EnvironmentLight::new(&image, &Default::default()).unwrap()
+}
+
 fn scene(trial: u64) -> (Scene, View, RenderSettings) {
     let rng = &mut Rng(trial.wrapping_mul(0x2545_f491_4f6c_dd1d));
     let scale = 10_f32.powf(rng.within(-4.0, 4.0));
@@ -144,8 +155,15 @@ fn scene(trial: u64) -> (Scene, View, RenderSettings) {
         };
     }
     for _ in 0..rng.below(3) {
-        builder = match rng.below(3) {
+        builder = match rng.below(5) {
             0 => builder.light(SkyLight::new(rng.light())),
+            3 => builder.light(environment(rng)),
+            4 => {
+                let (p, direction) = (at(rng.place()), rng.vector().normalize_or(Vec3::Y));
+                let cone = 180.0 * (1.0 - rng.f32());
+                let start = cone * [rng.f32(), 0.0, 1.0][rng.below(3)];
+                builder.light(SpotLight::new(p, direction, rng.light(), cone, start).unwrap())
+            }
             1 => {
                 let direction = rng.vector().normalize_or(Vec3::Y);
                 builder.light(DistantLight::new(direction, rng.light()).unwrap())

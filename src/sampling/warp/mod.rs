@@ -20,6 +20,7 @@
 //! assert!(cosine_hemisphere::inverse(w).abs_diff_eq(u, 1e-6));
 //! ```
 
+pub mod bilinear;
 pub mod concentric_disk;
 pub mod cosine_hemisphere;
 mod spherical_rectangle;

@@ -2,10 +2,12 @@
 
 mod choice;
 mod consistency;
+mod environment;
 mod extremes;
 mod irradiance;
 mod point;
 mod shadow;
+mod spot;
 mod surroundings;
 
 use lobe::accel::Accel;

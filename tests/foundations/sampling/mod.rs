@@ -2,6 +2,7 @@
 
 mod blue_noise;
 mod discrete;
+mod discrete_2d;
 mod domains;
 mod permutation;
 mod samplers;
