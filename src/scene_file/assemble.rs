@@ -1,11 +1,13 @@
 //! Conversion of a document to a scene.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::{Affine3A, Quat, UVec2};
 
 use super::faces::FaceMaterials;
+use super::report::{LoadReport, TextureImage};
 use super::sections::{self, SECTIONS};
 use crate::accel::InstructionSet;
 use crate::camera::Camera;
@@ -16,7 +18,7 @@ use crate::params::{Document, Fault, Kind, Mark, Problem, Table};
 use crate::render::{RenderSettings, SamplerSettings};
 use crate::sampling::SamplerKind;
 use crate::scene::{Emission, FilmSettings, Scene, SceneBuilder, SceneError, View};
-use crate::shape::{Load, ObjMesh, ObjReport};
+use crate::shape::{Load, ObjMesh};
 use crate::texture::Textures;
 
 /// A scene before its meshes are loaded. Lists are in the order of the file.
@@ -48,8 +50,7 @@ pub fn describe(document: &Document) -> Result<Description, Fault> {
     let camera =
         sections::CAMERA.read(camera, |kind, table| (kind.read)(table, film.resolution))?;
     let view = view(camera, film, document)?;
-    let integrator = root.table(sections::INTEGRATOR.key)?;
-    let integrator = sections::INTEGRATOR.read(integrator, |kind, table| (kind.read)(table))?;
+    let settings = settings(document)?;
     let mut textures = Textures::default();
     for (name, table) in root.tables(sections::TEXTURE.key)? {
         let texture = sections::TEXTURE.read(table, |kind, table| (kind.read)(table, &textures))?;
@@ -68,10 +69,7 @@ pub fn describe(document: &Document) -> Result<Description, Fault> {
     let shape = |(name, table): (&str, Table)| Ok((name.to_owned(), shape(table)?));
     Ok(Description {
         view,
-        settings: RenderSettings {
-            sampler: sampler(root.table(sections::SAMPLER.key)?)?,
-            integrator,
-        },
+        settings,
         materials,
         textures,
         lights: all(root.tables(sections::LIGHT.key)?, light)?,
@@ -142,12 +140,65 @@ fn shape(table: Table) -> Result<Shape, Fault> {
     })
 }
 
+/// What the camera of a model depends on.
+pub struct Stage {
+    /// Of the film.
+    pub resolution: UVec2,
+    pub load: Load,
+    /// From mesh to world space.
+    pub transform: Affine3A,
+    /// Whether the shape has neither material nor emission.
+    pub is_bare: bool,
+}
+
+/// Reads film and shape alone; `None` without a shape of this name.
+pub fn stage(document: &Document, name: &str) -> Result<Option<Stage>, Fault> {
+    let root = document.table("the scene", &SECTIONS.map(|section| section.key()))?;
+    let resolution = film(root.table(sections::FILM.key)?)?.resolution;
+    let mut shapes = root.tables(sections::SHAPE.key)?.into_iter();
+    let Some((_, table)) = shapes.find(|(known, _)| *known == name) else { return Ok(None) };
+    let Shape { load, transform, missing, .. } = shape(table)?;
+    Ok(Some(Stage { resolution, load, transform, is_bare: missing.is_some() }))
+}
+
+/// Reads sampler and integrator alone.
+pub fn settings(document: &Document) -> Result<RenderSettings, Fault> {
+    let root = document.table("the scene", &SECTIONS.map(|section| section.key()))?;
+    let integrator = root.table(sections::INTEGRATOR.key)?;
+    Ok(RenderSettings {
+        sampler: sampler(root.table(sections::SAMPLER.key)?)?,
+        integrator: sections::INTEGRATOR.read(integrator, |kind, table| (kind.read)(table))?,
+    })
+}
+
+impl Description {
+    /// The same with the mesh of a shape, which was loaded before.
+    pub fn with_mesh(mut self, name: &str, mesh: ObjMesh) -> Self {
+        if let Some((_, shape)) = self.shapes.iter_mut().find(|(known, _)| known == name) {
+            shape.load = Box::new(move || Ok(mesh));
+        }
+        self
+    }
+}
+
+/// A scene with all that was found on the way.
+pub struct Built {
+    pub scene: Scene,
+    pub view: View,
+    pub settings: RenderSettings,
+    pub report: LoadReport,
+    /// Those of the document, then those that faces name.
+    pub materials: Vec<(String, Arc<dyn Material>)>,
+    /// MTL files and images.
+    pub files: Vec<PathBuf>,
+}
+
 /// Looks up materials, loads the meshes and builds the scene.
 pub fn build(
     description: Description,
     document: &Document,
     instruction_set: InstructionSet,
-) -> Result<(Scene, View, RenderSettings, Vec<ObjReport>, Vec<String>), Fault> {
+) -> Result<Built, Fault> {
     let Description { view, settings, materials, textures, lights, shapes } = description;
     let fault = |error: SceneError| {
         let keys = match &error {
@@ -169,13 +220,14 @@ pub fn build(
         .fold(Scene::builder().instruction_set(instruction_set), SceneBuilder::light);
     let by_name: BTreeMap<String, Arc<dyn Material>> = materials.iter().cloned().collect();
     let mut builder = materials
-        .into_iter()
+        .iter()
+        .cloned()
         .fold(builder, |builder, (name, material)| builder.material(name, material));
-    let mut reports = Vec::with_capacity(shapes.len());
-    let mut faces = FaceMaterials { known: &by_name, textures: &textures, notes: Vec::new() };
+    let mut report = LoadReport::default();
+    let mut faces = FaceMaterials::new(&by_name, &textures);
     for (name, Shape { load, material, missing, emission, transform }) in shapes {
-        let ObjMesh { mut mesh, report, materials } = load()?;
-        reports.push(report);
+        let ObjMesh { mut mesh, report: odd, materials } = load()?;
+        report.meshes.push(odd);
         mesh.transform(&transform);
         let names_some = !materials.of_triangles.is_empty() && emission.is_none();
         builder = match (material, missing) {
@@ -186,6 +238,12 @@ pub fn build(
             }
         };
     }
-    let notes = faces.notes;
-    Ok((builder.build().map_err(fault)?, view, settings, reports, notes))
+    let FaceMaterials { notes, made, counts, mut files, .. } = faces;
+    files.extend(textures.files());
+    report.notes = notes;
+    report.face_materials = counts;
+    report.images = textures.images().map(TextureImage::of).collect();
+    let scene = builder.build().map_err(fault)?;
+    let materials = materials.into_iter().chain(made).collect();
+    Ok(Built { scene, view, settings, report, materials, files })
 }

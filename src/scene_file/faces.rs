@@ -1,9 +1,10 @@
 //! [`FaceMaterials`]: the materials that the faces of OBJ files name.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::report::FaceMaterial;
 use crate::material::{Material, MatteMaterial, MtlMaterials};
 use crate::scene::{Emission, SceneBuilder};
 use crate::shape::{MtlMaterial, ObjMaterials, TriangleMesh, read_mtl};
@@ -18,12 +19,23 @@ pub struct FaceMaterials<'a> {
     pub textures: &'a Textures,
     /// What was left out, with file and line.
     pub notes: Vec<String>,
+    /// The materials that were made.
+    pub made: Vec<(String, Arc<dyn Material>)>,
+    /// How many triangles have which.
+    pub counts: Vec<FaceMaterial>,
+    /// The MTL files.
+    pub files: Vec<PathBuf>,
 }
 
 /// A material of an MTL file, its index among the files, and its line.
 type Found = BTreeMap<String, (usize, MtlMaterial)>;
 
-impl FaceMaterials<'_> {
+impl<'a> FaceMaterials<'a> {
+    pub fn new(known: &'a BTreeMap<String, Arc<dyn Material>>, textures: &'a Textures) -> Self {
+        let (notes, made, counts, files) = Default::default();
+        Self { known, textures, notes, made, counts, files }
+    }
+
     /// Adds a shape whose triangles have the materials that they name. Those that emit become shapes of their own.
     pub fn add(
         &mut self,
@@ -43,8 +55,14 @@ impl FaceMaterials<'_> {
             let name = faces.names.get(index).map(String::as_str);
             let (key, material, emission) = self.material(shape, name, &faces.libraries, &found);
             if let Some(material) = material {
+                self.made.push((key.clone(), material.clone()));
                 builder = builder.material(key.clone(), material);
             }
+            self.counts.push(FaceMaterial {
+                name: key.clone(),
+                triangles: triangles.len(),
+                is_emitting: emission.is_some(),
+            });
             match emission {
                 Some(radiance) => {
                     let part = mesh.part(triangles);
@@ -98,6 +116,7 @@ impl FaceMaterials<'_> {
     fn read(&mut self, libraries: &[String]) -> Found {
         let mut found = Found::new();
         for (index, library) in libraries.iter().enumerate() {
+            self.files.push(library.into());
             match read_mtl(Path::new(library)) {
                 Ok(read) => {
                     for note in read.notes {

@@ -10,14 +10,18 @@ mod document;
 mod error;
 mod faces;
 mod identity;
+mod model;
 mod overrides;
+mod report;
 mod sections;
 mod toml_tree;
+mod write;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 pub use error::{Place, SceneFileError, TextProblem};
+pub use report::{FaceMaterial, LoadReport, TextureImage};
 pub use sections::SECTIONS;
 
 use crate::accel::InstructionSet;
@@ -27,7 +31,8 @@ use crate::material::Material;
 use crate::params::{Document, Fault, Mark};
 use crate::render::RenderSettings;
 use crate::scene::{Scene, View};
-use crate::shape::ObjReport;
+use crate::shape::{ObjMesh, read_obj};
+use assemble::Built;
 use document::Source;
 
 /// A scene, view and settings from a file.
@@ -38,21 +43,29 @@ pub struct LoadedScene {
     pub view: View,
     /// Sampler and integrator.
     pub settings: RenderSettings,
-    /// Load time and warnings about meshes.
+    /// Load time, warnings, and what was found in MTL files.
     pub report: LoadReport,
     materials: Vec<(String, Arc<dyn Material>)>,
+    /// MTL files and images.
+    files: Vec<PathBuf>,
     document: Document,
 }
 
 impl LoadedScene {
-    /// The materials of the file by name, in its order, whether or not a shape has them.
+    /// The materials of the file by name, in its order, whether or not a shape has them; then those of MTL files that faces name.
     pub fn materials(&self) -> impl ExactSizeIterator<Item = (&str, &dyn Material)> {
         self.materials.iter().map(|(name, material)| (name.as_str(), &**material))
     }
 
-    /// The files that the scene refers to. The scene file is not among them.
+    /// The files that the scene refers to, with MTL files and their images. The scene file is not among them.
     pub fn files(&self) -> Vec<PathBuf> {
-        self.document.files()
+        [self.document.files(), self.files.clone()].concat()
+    }
+
+    /// The text of a scene file with all values, those of overrides among them. Its paths are those of the file, which are relative to the
+    /// folder of the file, and those of overrides and of the scene of an OBJ file, which are relative to the current directory.
+    pub fn to_toml(&self) -> String {
+        write::toml(&self.document.root)
     }
 
     /// What is rendered, as lines `key = value`: the version of this crate, all values of the file and the overrides, and a
@@ -62,23 +75,15 @@ impl LoadedScene {
     }
 }
 
-/// Load time of a scene, and warnings about its meshes.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct LoadReport {
-    /// Wall-clock time in seconds, without building the acceleration structure.
-    pub seconds: f64,
-    /// Warnings about each mesh, in the order of [`Scene::shapes`].
-    pub meshes: Vec<ObjReport>,
-    /// What was left out of MTL files, with file and line.
-    pub notes: Vec<String>,
-}
-
 /// Reads the scene file at `path` with `overrides`. See [`parse_scene`].
 ///
+/// If the name ends in .obj it is a model, for which a scene is made: with the materials of its MTL files, under a white sky, seen from the
+/// front, right and above by a camera that stands where all of it is in the picture, in a right-handed world with y up. The shape
+/// is `model`, so that `shape.model.rotate` and others can be overridden. [`LoadedScene::to_toml`] has the scene as text.
+///
 /// # Errors
-/// If the file cannot be read, is not an ordinary one, or has more than 128 MiB, and those of [`parse_scene`]. Messages
-/// name the file by `path`.
+/// If the file cannot be read, is not an ordinary one, has more than 128 MiB, or has a name that ends neither in .toml nor in .obj, and
+/// those of [`parse_scene`] or [`read_obj`](crate::shape::read_obj). Messages name the file by `path`.
 pub fn read_scene(path: &Path, overrides: &[&str]) -> Result<LoadedScene, SceneFileError> {
     read_scene_for(InstructionSet::fastest(), path, overrides)
 }
@@ -94,17 +99,48 @@ pub fn read_scene_for(
     overrides: &[&str],
 ) -> Result<LoadedScene, SceneFileError> {
     let start = Stopwatch::start();
-    let text = read_text(path)?;
-    let mut loaded = parse_for(instruction_set, path, &text, overrides)?;
+    let mut loaded = if model::is_model(path) {
+        let source = Source::of_model(path, model::tree(path), overrides);
+        let mut document = source.parse()?;
+        let mesh = prepare_model(&source, path, &mut document)?;
+        finish(instruction_set, &source, document, mesh)?
+    } else {
+        parse_for(instruction_set, path, &read_scene_text(path)?, overrides)?
+    };
     loaded.report.seconds = start.seconds() - loaded.scene.build_seconds();
     Ok(loaded)
+}
+
+/// Loads the mesh of a model, and adds what depends on it to its scene. `None` if an override took the shape away.
+fn prepare_model(
+    source: &Source,
+    path: &Path,
+    document: &mut Document,
+) -> Result<Option<ObjMesh>, SceneFileError> {
+    let Some(stage) = source.place(assemble::stage(document, model::NAME))? else {
+        return Ok(None);
+    };
+    // By its path unless an override names another: the tree holds text alone.
+    let is_own = document.root.follow(&["shape", model::NAME, "obj"]).mark.source == 0;
+    let loaded = if is_own { read_obj(path)? } else { source.place((stage.load)())? };
+    let corners = loaded.mesh.indices.iter().flatten();
+    let corner = |&i: &u32| stage.transform.transform_point3(loaded.mesh.positions[i as usize]);
+    model::place_camera(&mut document.root, corners.map(corner), stage.resolution);
+    if stage.is_bare && loaded.materials.of_triangles.is_empty() {
+        model::make_grey(&mut document.root);
+    }
+    Ok(Some(loaded))
 }
 
 /// Reads only sampler and integrator of the scene file at `path` with `overrides`. Meshes are not loaded.
 ///
 /// # Errors
-/// Those of [`read_scene`], except for unknown materials and invalid meshes.
+/// Those of [`read_scene`], except for unknown materials and invalid meshes; of a model only those about sampler and integrator.
 pub fn read_settings(path: &Path, overrides: &[&str]) -> Result<RenderSettings, SceneFileError> {
+    if model::is_model(path) {
+        let source = Source::of_model(path, model::tree(path), overrides);
+        return source.place(assemble::settings(&source.parse()?));
+    }
     Ok(read_with(path, overrides, assemble::describe)?.settings)
 }
 
@@ -132,6 +168,17 @@ fn read_with<T>(
 
 /// Maximum size of a file, in MiB: for scenes of more than three million materials.
 const MOST: u64 = 128;
+
+/// The text of a scene file, whose name has to tell that it is one.
+fn read_scene_text(path: &Path) -> Result<String, SceneFileError> {
+    let is_toml = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    let unreadable = |source| SceneFileError::Unreadable { path: path.to_owned(), source };
+    if !is_toml {
+        file::open(path).map_err(unreadable)?;
+        return Err(SceneFileError::Ending(path.to_owned()));
+    }
+    read_text(path)
+}
 
 fn read_text(path: &Path) -> Result<String, SceneFileError> {
     let unreadable = |source| SceneFileError::Unreadable { path: path.to_owned(), source };
@@ -189,11 +236,23 @@ fn parse_for(
     let start = Stopwatch::start();
     let source = Source::new(path, text, overrides);
     let document = source.parse()?;
-    let description = source.place(assemble::describe(&document))?;
-    let materials = description.materials.clone();
-    let (scene, view, settings, meshes, notes) =
+    let mut loaded = finish(instruction_set, &source, document, None)?;
+    loaded.report.seconds = start.seconds() - loaded.scene.build_seconds();
+    Ok(loaded)
+}
+
+/// Builds the scene of a document. `mesh` is that of a model.
+fn finish(
+    instruction_set: InstructionSet,
+    source: &Source,
+    document: Document,
+    mesh: Option<ObjMesh>,
+) -> Result<LoadedScene, SceneFileError> {
+    let mut description = source.place(assemble::describe(&document))?;
+    if let Some(mesh) = mesh {
+        description = description.with_mesh(model::NAME, mesh);
+    }
+    let Built { scene, view, settings, report, materials, files } =
         source.place(assemble::build(description, &document, instruction_set))?;
-    let seconds = start.seconds() - scene.build_seconds();
-    let report = LoadReport { seconds, meshes, notes };
-    Ok(LoadedScene { scene, view, settings, report, materials, document })
+    Ok(LoadedScene { scene, view, settings, report, materials, files, document })
 }

@@ -126,8 +126,8 @@ pub struct Textures {
     images: Arc<Mutex<Images>>,
 }
 
-/// Images that were decoded, by file and curve.
-type Images = BTreeMap<(PathBuf, Curve), Arc<Texels>>;
+/// Images that were decoded, by file and curve; `None` for files that cannot be.
+type Images = BTreeMap<(PathBuf, Curve), Option<Arc<Texels>>>;
 
 impl Textures {
     /// Adds a texture, or replaces the one of that name.
@@ -141,13 +141,25 @@ impl Textures {
     /// Those of [`Image::read`].
     pub fn image(&self, file: &Path, curve: Curve) -> Result<Arc<Texels>, ReadError> {
         let mut images = self.images.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = (file.to_owned(), curve);
-        if let Some(known) = images.get(&key) {
+        let known = images.entry((file.to_owned(), curve)).or_default();
+        if let Some(known) = known {
             return Ok(known.clone());
         }
         let texels = Arc::new(Texels::new(&Image::read(file)?, curve));
-        images.insert(key, texels.clone());
+        *known = Some(texels.clone());
         Ok(texels)
+    }
+
+    /// The images that were decoded, in the order of their files; one file twice if it was decoded by two curves.
+    pub fn images(&self) -> impl Iterator<Item = (PathBuf, Arc<Texels>)> + use<> {
+        let images = self.images.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        images.into_iter().filter_map(|((file, _), texels)| Some((file, texels?)))
+    }
+
+    /// The files that were asked for, also those that cannot be decoded.
+    pub fn files(&self) -> impl Iterator<Item = PathBuf> + use<> {
+        let images = self.images.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        images.into_keys().map(|(file, _)| file)
     }
 
     /// The texture that the key's value names, or a constant texture if the value is a number or a colour.

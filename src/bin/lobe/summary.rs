@@ -81,6 +81,15 @@ impl Summary {
         }
     }
 
+    /// Adds a line `warning` for each thing that was left out of MTL files; of many, the first `most`.
+    pub fn add_notes(&mut self, report: &LoadReport, most: usize) {
+        report.notes.iter().take(most).for_each(|note| self.add("warning", note));
+        let left = report.notes.len().saturating_sub(most);
+        if left > 0 {
+            self.add("warning", format!("and {left} more, which lobe info shows"));
+        }
+    }
+
     /// Prints all lines, with the values aligned, as [`print`] does.
     pub fn print(&self) -> io::Result<()> {
         let width = self.0.iter().map(|(key, _)| key.len()).max().unwrap_or(0);
