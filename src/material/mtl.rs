@@ -2,22 +2,24 @@
 //!
 //! | what MTL says | material |
 //! |---|---|
-//! | `Pm` above 1/2 | metal that reflects `Kd` at the normal |
-//! | `illum` 4, 6, 7 or 9 | glass of index `Ni`, 1.5 without one; refracted light is scaled by `Tf` |
+//! | `Pm` above 1/2 | metal that reflects `Kd` at the normal, white without it |
+//! | `illum` 4, 6, 7 or 9 | glass of index `Ni`; refracted light is scaled by `Tf` |
 //! | `illum` 3 or 5 with black `Kd`, and `Ks` | metal that reflects `Ks` |
-//! | `Ks` above 0, with `illum` 2 or none | plastic: a coat of index `Ni`, 1.5 without one or with 1, over `Kd` |
+//! | `Ks` above 0, with `illum` 2 or none | plastic: a coat of index `Ni` over `Kd` |
 //! | else | matte, `Kd` |
 //!
-//! Roughness is `Pr`, perceptual, or α = √(2 / (Ns + 2)) from Phong's exponent `Ns` (Walter et al. 2007, section 5.2), else 0.
+//! The first row that fits holds. An index that is missing, at most 1 or above 10 is 1.5, and a missing `Kd` is 0.5. Roughness is `Pr`, perceptual, or α = √(2 / (Ns + 2)) from Phong's exponent `Ns` (Walter et al. 2007, section 5.2), else 0.
 //! `map_Kd` is multiplied by `Kd`, unless that is black.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use glam::Vec2;
 
 use super::{GlassMaterial, Material, MatteMaterial, MetalMaterial, PlasticMaterial, Roughness};
+use crate::file;
 use crate::image::ReadError;
+use crate::interaction::SurfaceInteraction;
 use crate::shape::{MtlMap, MtlMaterial};
 use crate::spectrum::Spectrum;
 use crate::texture::{
@@ -39,15 +41,19 @@ impl MtlMaterials<'_> {
     /// The material, and what was left out of it.
     pub fn make(&self, mtl: &MtlMaterial) -> (Arc<dyn Material>, Vec<Note>) {
         let mut notes = Vec::new();
-        let kd = self.color(mtl.kd, mtl.map_kd.as_ref(), &mut notes);
+        let has_glass = matches!(mtl.illum, Some(4 | 6 | 7 | 9));
+        let is_metal = mtl.pm.is_some_and(|pm| pm > 0.5);
+        // Neither glass nor metal has a place for it.
+        let map = mtl.map_kd.as_ref().filter(|_| !has_glass && !is_metal);
+        let kd = self.color(mtl.kd, map, &mut notes);
         let ks = Spectrum::from(mtl.ks.unwrap_or_default());
         let eta = mtl.ni.filter(|ni| *ni > 1.0 && *ni <= 10.0).unwrap_or(1.5);
         let material: Arc<dyn Material> = match mtl.illum {
-            _ if mtl.pm.is_some_and(|pm| pm > 0.5) => {
-                let color = kd.constant().unwrap_or(Spectrum::WHITE);
+            _ if is_metal => {
+                let color = mtl.kd.map_or(Spectrum::WHITE, Spectrum::from);
                 Arc::new(MetalMaterial::reflecting(color).with_roughness(roughness(mtl)))
             }
-            Some(4 | 6 | 7 | 9) => {
+            _ if has_glass => {
                 let tf = Spectrum::from(mtl.tf.unwrap_or([1.0; 3]));
                 Arc::new(GlassMaterial::new(eta).with_kt(tf).with_roughness(roughness(mtl)))
             }
@@ -59,15 +65,20 @@ impl MtlMaterials<'_> {
             }
             _ => Arc::new(MatteMaterial::new(kd)),
         };
+        // Glass lets light through by itself.
+        let is_open = |opacity: Option<f32>| opacity.is_some_and(|d| d < 1.0) && !has_glass;
         let unused = [
-            ("map_d", &mtl.map_d),
-            ("map_Pr", &mtl.map_pr),
-            ("map_Pm", &mtl.map_pm),
-            ("map_Bump", &mtl.map_bump),
-            ("norm", &mtl.norm),
-            ("map_Ke", &mtl.map_ke),
+            ("d", is_open(mtl.d)),
+            ("Tr", is_open(mtl.tr.map(|tr| 1.0 - tr))),
+            ("map_Kd", mtl.map_kd.is_some() && map.is_none()),
+            ("map_d", mtl.map_d.is_some()),
+            ("map_Pr", mtl.map_pr.is_some()),
+            ("map_Pm", mtl.map_pm.is_some()),
+            ("map_Bump", mtl.map_bump.is_some()),
+            ("norm", mtl.norm.is_some()),
+            ("map_Ke", mtl.map_ke.is_some()),
         ];
-        let unused = unused.into_iter().filter(|(_, map)| map.is_some());
+        let unused = unused.into_iter().filter(|(_, is_there)| *is_there);
         notes.extend(unused.map(|(key, _)| format!("{key} is not used yet")));
         (material, notes)
     }
@@ -82,16 +93,23 @@ impl MtlMaterials<'_> {
         let given = color.map(Spectrum::from);
         let color = given.unwrap_or(Spectrum::splat(0.5));
         let Some(map) = map else { return color.into_handle() };
-        match self.image(map, Curve::Srgb) {
+        let image = match self.image(map, Curve::Srgb) {
             Err(error) => {
                 notes.push(error.to_string());
-                color.into_handle()
+                return color.into_handle();
             }
-            Ok(image) => match given.filter(|color| !color.is_black() && *color != Spectrum::WHITE)
-            {
-                Some(color) => ProductTexture::new(image, color).into_handle(),
-                None => image.into_handle(),
-            },
+            Ok(image) if map.base_gain == [0.0, 1.0] => image.into_handle(),
+            Ok(image) => {
+                let [base, gain] = map.base_gain;
+                let changed = move |si: &SurfaceInteraction| {
+                    Spectrum::splat(base) + image.evaluate(si) * gain
+                };
+                changed.into_handle()
+            }
+        };
+        match given.filter(|color| !color.is_black() && *color != Spectrum::WHITE) {
+            Some(color) => ProductTexture::new(image, color).into_handle(),
+            None => image,
         }
     }
 
@@ -99,15 +117,12 @@ impl MtlMaterials<'_> {
         let [u, v, _] = map.scale;
         let [du, dv, _] = map.offset;
         let mapping = Mapping::default().scaled(Vec2::new(u, v)).moved(Vec2::new(du, dv));
-        let image = ImageTexture::new(self.textures.image(&self.path(&map.file), curve)?);
+        // The message about a missing file names it as it stands there.
+        let path = file::find(self.folder, &map.file);
+        let path = path.unwrap_or_else(|| self.folder.join(&map.file));
+        let image = ImageTexture::new(self.textures.image(&path, curve)?);
         let image = image.with_mapping(mapping);
         Ok(if map.is_clamped { image.with_wrap(Wrap::Clamp) } else { image })
-    }
-
-    /// Names have either slash.
-    fn path(&self, name: &str) -> PathBuf {
-        let as_it_is = self.folder.join(name);
-        if as_it_is.exists() { as_it_is } else { self.folder.join(name.replace('\\', "/")) }
     }
 }
 

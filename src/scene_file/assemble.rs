@@ -1,13 +1,11 @@
 //! Conversion of a document to a scene.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::{Affine3A, Quat, UVec2};
 
-use super::faces::FaceMaterials;
-use super::report::{LoadReport, TextureImage};
+use super::faces::{FaceMaterials, Found};
 use super::sections::{self, SECTIONS};
 use crate::accel::InstructionSet;
 use crate::camera::Camera;
@@ -18,7 +16,7 @@ use crate::params::{Document, Fault, Kind, Mark, Problem, Table};
 use crate::render::{RenderSettings, SamplerSettings};
 use crate::sampling::SamplerKind;
 use crate::scene::{Emission, FilmSettings, Scene, SceneBuilder, SceneError, View};
-use crate::shape::{Load, ObjMesh};
+use crate::shape::{Load, ObjMesh, ObjReport};
 use crate::texture::Textures;
 
 /// A scene before its meshes are loaded. Lists are in the order of the file.
@@ -26,7 +24,7 @@ pub struct Description {
     view: View,
     pub settings: RenderSettings,
     pub materials: Vec<(String, Arc<dyn Material>)>,
-    textures: Textures,
+    pub textures: Textures,
     lights: Vec<Arc<dyn Light>>,
     shapes: Vec<(String, Shape)>,
 }
@@ -181,16 +179,14 @@ impl Description {
     }
 }
 
-/// A scene with all that was found on the way.
+/// A scene whose meshes are loaded.
 pub struct Built {
     pub scene: Scene,
     pub view: View,
     pub settings: RenderSettings,
-    pub report: LoadReport,
-    /// Those of the document, then those that faces name.
-    pub materials: Vec<(String, Arc<dyn Material>)>,
-    /// MTL files and images.
-    pub files: Vec<PathBuf>,
+    /// About each mesh, in the order of [`Scene::shapes`].
+    pub reports: Vec<ObjReport>,
+    pub faces: Found,
 }
 
 /// Looks up materials, loads the meshes and builds the scene.
@@ -220,30 +216,28 @@ pub fn build(
         .fold(Scene::builder().instruction_set(instruction_set), SceneBuilder::light);
     let by_name: BTreeMap<String, Arc<dyn Material>> = materials.iter().cloned().collect();
     let mut builder = materials
-        .iter()
-        .cloned()
+        .into_iter()
         .fold(builder, |builder, (name, material)| builder.material(name, material));
-    let mut report = LoadReport::default();
+    let mut reports = Vec::with_capacity(shapes.len());
     let mut faces = FaceMaterials::new(&by_name, &textures);
     for (name, Shape { load, material, missing, emission, transform }) in shapes {
-        let ObjMesh { mut mesh, report: odd, materials } = load()?;
-        report.meshes.push(odd);
+        let ObjMesh { mut mesh, report, materials } = load()?;
+        reports.push(report);
         mesh.transform(&transform);
         let names_some = !materials.of_triangles.is_empty() && emission.is_none();
         builder = match (material, missing) {
-            (None, _) if names_some => faces.add(builder, &name, &mesh, &materials),
+            (None, _) if names_some => {
+                let (builder, count) = faces.add(builder, &name, &mesh, &materials);
+                // What is odd about the file is said once.
+                reports.resize(reports.len() + count - 1, ObjReport::default());
+                builder
+            }
             (None, Some(missing)) => return Err(missing),
             (material, _) => {
                 builder.add_shape(name, mesh, material.map(|(name, _)| name), emission)
             }
         };
     }
-    let FaceMaterials { notes, made, counts, mut files, .. } = faces;
-    files.extend(textures.files());
-    report.notes = notes;
-    report.face_materials = counts;
-    report.images = textures.images().map(TextureImage::of).collect();
-    let scene = builder.build().map_err(fault)?;
-    let materials = materials.into_iter().chain(made).collect();
-    Ok(Built { scene, view, settings, report, materials, files })
+    let faces = faces.found;
+    Ok(Built { scene: builder.build().map_err(fault)?, view, settings, reports, faces })
 }

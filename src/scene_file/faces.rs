@@ -1,74 +1,102 @@
 //! [`FaceMaterials`]: the materials that the faces of OBJ files name.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::report::FaceMaterial;
 use crate::material::{Material, MatteMaterial, MtlMaterials};
+use crate::params::{Shown, quoted};
 use crate::scene::{Emission, SceneBuilder};
-use crate::shape::{MtlMaterial, ObjMaterials, TriangleMesh, read_mtl};
+use crate::shape::{MtlMaterial, MtlNote, ObjMaterials, TriangleMesh, read_mtl};
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 
 /// Finds what faces are made of: a material of the scene file with that name, else one of the OBJ file's MTL files, else grey.
 pub struct FaceMaterials<'a> {
     /// The materials of the scene file.
-    pub known: &'a BTreeMap<String, Arc<dyn Material>>,
+    known: &'a BTreeMap<String, Arc<dyn Material>>,
     /// The images that materials share.
-    pub textures: &'a Textures,
-    /// What was left out, with file and line.
-    pub notes: Vec<String>,
-    /// The materials that were made.
-    pub made: Vec<(String, Arc<dyn Material>)>,
-    /// How many triangles have which.
-    pub counts: Vec<FaceMaterial>,
-    /// The MTL files.
-    pub files: Vec<PathBuf>,
+    textures: &'a Textures,
+    /// Names that the builder has materials for.
+    taken: BTreeSet<String>,
+    pub found: Found,
 }
 
-/// A material of an MTL file, its index among the files, and its line.
-type Found = BTreeMap<String, (usize, MtlMaterial)>;
+/// What was found beside the materials.
+#[derive(Default)]
+pub struct Found {
+    /// What was left out, with file and line.
+    pub notes: Vec<String>,
+    /// Lines `key = value` that change with the materials of faces, but not with the images of these.
+    pub identity: Vec<String>,
+    /// The MTL files.
+    pub files: Vec<PathBuf>,
+    /// The materials that were made for faces.
+    pub materials: Vec<(String, Arc<dyn Material>)>,
+    /// How many triangles have which.
+    pub counts: Vec<FaceMaterial>,
+}
+
+/// A material of an MTL file, and the index of the file.
+type Library = BTreeMap<String, (usize, MtlMaterial)>;
+
+/// What faces of one name are made of.
+struct Made {
+    /// Name for the builder.
+    key: String,
+    emission: Option<Spectrum>,
+}
 
 impl<'a> FaceMaterials<'a> {
     pub fn new(known: &'a BTreeMap<String, Arc<dyn Material>>, textures: &'a Textures) -> Self {
-        let (notes, made, counts, files) = Default::default();
-        Self { known, textures, notes, made, counts, files }
+        let taken = known.keys().cloned().collect();
+        Self { known, textures, taken, found: Found::default() }
     }
 
-    /// Adds a shape whose triangles have the materials that they name. Those that emit become shapes of their own.
+    /// Adds a shape whose triangles have the materials that they name, and one for each material that emits. Returns how many there are.
     pub fn add(
         &mut self,
         mut builder: SceneBuilder,
         shape: &str,
         mesh: &TriangleMesh,
         faces: &ObjMaterials,
-    ) -> SceneBuilder {
-        let found = self.read(&faces.libraries);
+    ) -> (SceneBuilder, usize) {
+        let library = self.read(&faces.libraries);
+        let indices = faces.of_triangles.iter().flat_map(|index| index.to_le_bytes());
+        let sum = crc32fast::hash(&indices.collect::<Vec<_>>());
+        self.found
+            .identity
+            .push(format!("materials of triangles of {} = {sum:08x}", quoted(shape)));
         // Triangles of each material; the last are those without.
         let mut triangles = vec![Vec::new(); faces.names.len() + 1];
         for (triangle, &index) in faces.of_triangles.iter().enumerate() {
             triangles[(index as usize).min(faces.names.len())].push(triangle as u32);
         }
         let (mut quiet, mut names, mut of_triangles) = (Vec::new(), Vec::new(), Vec::new());
+        let mut glowing = Vec::new();
         for (index, triangles) in triangles.iter().enumerate().filter(|(_, all)| !all.is_empty()) {
             let name = faces.names.get(index).map(String::as_str);
-            let (key, material, emission) = self.material(shape, name, &faces.libraries, &found);
-            if let Some(material) = material {
-                self.made.push((key.clone(), material.clone()));
-                builder = builder.material(key.clone(), material);
-            }
-            self.counts.push(FaceMaterial {
-                name: key.clone(),
-                triangles: triangles.len(),
-                is_emitting: emission.is_some(),
-            });
+            let Made { key, emission } = match name {
+                Some(name) => self.material(&mut builder, shape, name, faces, &library),
+                None => {
+                    let note = format!(
+                        "shape {}: {} triangles name no material and are grey",
+                        quoted(shape),
+                        triangles.len()
+                    );
+                    self.found.notes.push(note);
+                    Made { key: self.add_material(&mut builder, shape, "", grey()), emission: None }
+                }
+            };
+            let (triangle_count, is_emitting) = (triangles.len(), emission.is_some());
+            let count = FaceMaterial { name: key.clone(), triangle_count, is_emitting };
+            self.found.counts.push(count);
             match emission {
                 Some(radiance) => {
-                    let part = mesh.part(triangles);
                     let name = format!("{shape}/{}", name.unwrap_or_default());
                     let emission = Emission { radiance, two_sided: true };
-                    builder = builder.glowing_shape(name, part, key, emission);
+                    glowing.push((name, mesh.part(triangles), key, emission));
                 }
                 None => {
                     of_triangles.extend(triangles.iter().map(|_| names.len() as u32));
@@ -77,59 +105,90 @@ impl<'a> FaceMaterials<'a> {
                 }
             }
         }
-        if quiet.is_empty() {
-            return builder;
+        let count = glowing.len() + usize::from(!quiet.is_empty());
+        if !quiet.is_empty() {
+            builder = builder.shape_with_materials(shape, mesh.part(&quiet), names, of_triangles);
         }
-        builder.shape_with_materials(shape, mesh.part(&quiet), names, of_triangles)
+        for (name, part, key, emission) in glowing {
+            builder = builder.glowing_shape(name, part, key, emission);
+        }
+        (builder, count)
     }
 
-    /// The name for the builder, a material that is to be added to it, and emission.
     fn material(
         &mut self,
+        builder: &mut SceneBuilder,
         shape: &str,
-        name: Option<&str>,
-        libraries: &[String],
-        found: &Found,
-    ) -> (String, Option<Arc<dyn Material>>, Option<Spectrum>) {
-        let Some(name) = name else { return (format!("{shape}/"), Some(grey()), None) };
-        let mtl = found.get(name);
+        name: &str,
+        faces: &ObjMaterials,
+        library: &Library,
+    ) -> Made {
+        let mtl = library.get(name);
         let emission = mtl.and_then(|(_, mtl)| mtl.ke).map(Spectrum::from);
         let emission = emission.filter(|ke| !ke.is_black());
+        // The line may change, and with floats a text is the simplest that all values are part of.
+        let values = mtl.map(|(_, mtl)| format!("{:?}", MtlMaterial { line: 0, ..mtl.clone() }));
+        let sum = crc32fast::hash(values.unwrap_or_default().as_bytes());
+        self.found.identity.push(format!(
+            "material {} of {} = {sum:08x}",
+            quoted(name),
+            quoted(shape)
+        ));
         if self.known.contains_key(name) {
-            return (name.to_owned(), None, emission);
+            return Made { key: name.to_owned(), emission };
         }
-        let key = format!("{shape}/{name}");
-        let Some((library, mtl)) = mtl else {
-            self.notes.push(format!("shape {shape}: no material {name}: it is grey"));
-            return (key, Some(grey()), None);
+        let Some((index, mtl)) = mtl else {
+            let note = format!(
+                "shape {}: there is no material {}; its faces are grey",
+                quoted(shape),
+                quoted(name)
+            );
+            self.found.notes.push(note);
+            return Made { key: self.add_material(builder, shape, name, grey()), emission: None };
         };
-        let file = Path::new(&libraries[*library]);
+        let file = &faces.libraries[*index];
         let folder = file.parent().unwrap_or(Path::new(""));
         let (material, notes) = MtlMaterials { folder, textures: self.textures }.make(mtl);
-        let line = mtl.line;
-        self.notes.extend(
-            notes.into_iter().map(|note| format!("{}:{line}: {name}: {note}", file.display())),
-        );
-        (key, Some(material), emission)
+        let place = format!("{}:{}: material {}", Shown::path(file), mtl.line, quoted(name));
+        self.found.notes.extend(notes.into_iter().map(|note| format!("{place}: {note}")));
+        Made { key: self.add_material(builder, shape, name, material), emission }
     }
 
-    fn read(&mut self, libraries: &[String]) -> Found {
-        let mut found = Found::new();
-        for (index, library) in libraries.iter().enumerate() {
-            self.files.push(library.into());
-            match read_mtl(Path::new(library)) {
+    /// Adds a material to the builder under a name that no other has.
+    fn add_material(
+        &mut self,
+        builder: &mut SceneBuilder,
+        shape: &str,
+        name: &str,
+        material: Arc<dyn Material>,
+    ) -> String {
+        let mut key = format!("{shape}/{name}");
+        while !self.taken.insert(key.clone()) {
+            key.push('\'');
+        }
+        self.found.materials.push((key.clone(), material.clone()));
+        *builder = std::mem::take(builder).material(key.clone(), material);
+        key
+    }
+
+    fn read(&mut self, libraries: &[PathBuf]) -> Library {
+        let mut library = Library::new();
+        for (index, file) in libraries.iter().enumerate() {
+            match read_mtl(file) {
                 Ok(read) => {
-                    for note in read.notes {
-                        self.notes.push(format!("{library}:{}: {}", note.line, note.what));
-                    }
+                    let note = |note: MtlNote| {
+                        format!("{}:{}: {}", Shown::path(file), note.line, note.what)
+                    };
+                    self.found.notes.extend(read.notes.into_iter().map(note));
+                    self.found.files.push(file.clone());
                     for mtl in read.materials {
-                        found.entry(mtl.name.clone()).or_insert((index, mtl));
+                        library.entry(mtl.name.clone()).or_insert((index, mtl));
                     }
                 }
-                Err(error) => self.notes.push(error.to_string()),
+                Err(error) => self.found.notes.push(error.to_string()),
             }
         }
-        found
+        library
     }
 }
 

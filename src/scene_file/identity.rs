@@ -1,20 +1,41 @@
 //! What tells one scene from another, in lines.
 
-use glam::{Vec2, Vec3};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use glam::{UVec2, Vec2, Vec3};
 
 use crate::params::{Document, Node, Value};
 use crate::scene::Scene;
 use crate::shape::TriangleMesh;
+use crate::texture::{Curve, Texels, Textures};
 
-/// Version, values and meshes: see [`LoadedScene::identity`](super::LoadedScene::identity).
-pub fn lines(document: &Document, scene: &Scene) -> Vec<String> {
+/// Version, values, meshes, images, and `faces`, lines about the materials of these: see
+/// [`LoadedScene::identity`](super::LoadedScene::identity).
+pub fn lines(
+    document: &Document,
+    scene: &Scene,
+    textures: &Textures,
+    faces: &[String],
+) -> Vec<String> {
     let mut lines = vec![concat!("lobe = ", env!("CARGO_PKG_VERSION")).to_owned()];
     push_values("", &document.root, &mut lines);
     for (name, mesh) in scene.shapes() {
         let (triangles, sum) = (mesh.indices.len(), checksum(mesh));
         lines.push(format!("mesh of shape {name:?} = {triangles} triangles, checksum {sum:08x}"));
     }
+    lines.extend_from_slice(faces);
+    // By name alone and sorted: the same in any folder.
+    let mut images: Vec<_> = textures.images().into_iter().map(image).collect();
+    images.sort();
+    lines.extend(images);
     lines
+}
+
+fn image((file, curve, texels): (PathBuf, Curve, Arc<Texels>)) -> String {
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    let (UVec2 { x, y }, sum) = (texels.size(), texels.checksum());
+    format!("image {name:?} as {curve:?} = {x} x {y} pixels, checksum {sum:08x}")
 }
 
 /// A line for each value that is not a table, in the order of the document.

@@ -32,8 +32,10 @@ use crate::params::{Document, Fault, Mark};
 use crate::render::RenderSettings;
 use crate::scene::{Scene, View};
 use crate::shape::{ObjMesh, read_obj};
+use crate::texture::Textures;
 use assemble::Built;
 use document::Source;
+use faces::Found;
 
 /// A scene, view and settings from a file.
 pub struct LoadedScene {
@@ -46,20 +48,22 @@ pub struct LoadedScene {
     /// Load time, warnings, and what was found in MTL files.
     pub report: LoadReport,
     materials: Vec<(String, Arc<dyn Material>)>,
-    /// MTL files and images.
-    files: Vec<PathBuf>,
+    textures: Textures,
+    faces: Found,
     document: Document,
 }
 
 impl LoadedScene {
     /// The materials of the file by name, in its order, whether or not a shape has them; then those of MTL files that faces name.
-    pub fn materials(&self) -> impl ExactSizeIterator<Item = (&str, &dyn Material)> {
-        self.materials.iter().map(|(name, material)| (name.as_str(), &**material))
+    pub fn materials(&self) -> impl Iterator<Item = (&str, &dyn Material)> {
+        let all = self.materials.iter().chain(&self.faces.materials);
+        all.map(|(name, material)| (name.as_str(), &**material))
     }
 
-    /// The files that the scene refers to, with MTL files and their images. The scene file is not among them.
+    /// The files that the scene refers to, with those that they refer to: MTL files and images. The scene file is not among them.
     pub fn files(&self) -> Vec<PathBuf> {
-        [self.document.files(), self.files.clone()].concat()
+        let images = self.textures.images().into_iter().map(|(file, ..)| file);
+        self.document.files().into_iter().chain(self.faces.files.clone()).chain(images).collect()
     }
 
     /// The text of a scene file with all values, those of overrides among them. Its paths are those of the file, which are relative to the
@@ -68,10 +72,10 @@ impl LoadedScene {
         write::toml(&self.document.root)
     }
 
-    /// What is rendered, as lines `key = value`: the version of this crate, all values of the file and the overrides, and a
-    /// checksum of each mesh. Renders of equal identity give the same picture for the same samples.
+    /// What is rendered, as lines `key = value`: the version of this crate, all values of the file and the overrides, and
+    /// checksums of each mesh, each image and the materials of faces. Renders of equal identity give the same picture for the same samples.
     pub fn identity(&self) -> Vec<String> {
-        identity::lines(&self.document, &self.scene)
+        identity::lines(&self.document, &self.scene, &self.textures, &self.faces.identity)
     }
 }
 
@@ -252,7 +256,15 @@ fn finish(
     if let Some(mesh) = mesh {
         description = description.with_mesh(model::NAME, mesh);
     }
-    let Built { scene, view, settings, report, materials, files } =
+    let (materials, textures) = (description.materials.clone(), description.textures.clone());
+    let Built { scene, view, settings, reports: meshes, mut faces } =
         source.place(assemble::build(description, &document, instruction_set))?;
-    Ok(LoadedScene { scene, view, settings, report, materials, files, document })
+    let report = LoadReport {
+        seconds: 0.0,
+        meshes,
+        notes: std::mem::take(&mut faces.notes),
+        face_materials: std::mem::take(&mut faces.counts),
+        images: textures.images().into_iter().map(TextureImage::of).collect(),
+    };
+    Ok(LoadedScene { scene, view, settings, report, materials, textures, faces, document })
 }

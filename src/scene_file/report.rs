@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::UVec2;
 
 use crate::shape::ObjReport;
-use crate::texture::Texels;
+use crate::texture::{Curve, Texels};
 
 /// Load time of a scene, and what was found in its meshes, materials and images.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -16,11 +16,11 @@ pub struct LoadReport {
     pub seconds: f64,
     /// Warnings about each mesh, in the order of [`Scene::shapes`](crate::Scene::shapes).
     pub meshes: Vec<ObjReport>,
-    /// What was left out of MTL files, with file and line.
+    /// What was left out of MTL files, with file and line, and faces without a material.
     pub notes: Vec<String>,
     /// The materials that faces name, for each shape in the order of its file.
     pub face_materials: Vec<FaceMaterial>,
-    /// The images of textures, by file.
+    /// The images of textures, by file; one file twice if its codes mean different things to two of them.
     pub images: Vec<TextureImage>,
 }
 
@@ -31,7 +31,7 @@ pub struct FaceMaterial {
     /// Its name among the scene's materials.
     pub name: String,
     /// Number of the triangles.
-    pub triangles: usize,
+    pub triangle_count: usize,
     /// Whether they emit light.
     pub is_emitting: bool,
 }
@@ -49,7 +49,7 @@ pub struct TextureImage {
 }
 
 impl TextureImage {
-    pub(super) fn of((file, texels): (PathBuf, Arc<Texels>)) -> Self {
+    pub(super) fn of((file, _, texels): (PathBuf, Curve, Arc<Texels>)) -> Self {
         Self { file, size: texels.size(), bytes: texels.bytes() }
     }
 }

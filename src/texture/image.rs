@@ -99,23 +99,27 @@ impl ImageTexture {
     /// The colour at a point of the image's plane. Black if the point is not finite.
     pub fn at(&self, st: Vec2) -> Spectrum {
         let size = self.texels.size();
-        // In pixels from the top left corner, with centres at integers.
-        let at = Vec2::new(st.x, 1.0 - st.y) * size.as_vec2() - 0.5;
-        if !at.is_finite() {
+        if !st.is_finite() {
             return Spectrum::BLACK;
         }
+        // In pixels from the bottom left corner. Far from it, f32 would not tell neighbours apart.
+        let at = st.as_dvec2() * size.as_dvec2();
         let pixel = |x: i64, y: i64| {
             let [x, y] = [(x, size.x, self.wrap[0]), (y, size.y, self.wrap[1])]
                 .map(|(index, count, wrap)| wrapped(index, count, wrap));
-            self.texels.at(x, y)
+            self.texels.at(x, size.y - 1 - y)
         };
         match self.magnification {
-            Magnification::Nearest => pixel(at.x.round() as i64, at.y.round() as i64),
+            Magnification::Nearest => pixel(at.x.floor() as i64, at.y.floor() as i64),
             Magnification::Bilinear => {
+                let at = at - 0.5;
                 let floor = at.floor();
-                let (x, y, part) = (floor.x as i64, floor.y as i64, at - floor);
-                let row = |y| pixel(x, y) * (1.0 - part.x) + pixel(x + 1, y) * part.x;
-                row(y) * (1.0 - part.y) + row(y + 1) * part.y
+                // Saturated where the coordinates leave 64 bits.
+                let [x, y] = floor.to_array().map(|index| index as i64);
+                let [next_x, next_y] = [x, y].map(|index| index.saturating_add(1));
+                let part = (at - floor).as_vec2();
+                let row = |y| pixel(x, y) * (1.0 - part.x) + pixel(next_x, y) * part.x;
+                row(y) * (1.0 - part.y) + row(next_y) * part.y
             }
         }
     }

@@ -38,9 +38,9 @@ pub enum Projection {
     Uv,
     /// x and y.
     Planar,
-    /// Longitude around z, once from 0 to 1, and z.
+    /// Longitude around z, once from 0 to 1 beginning at x, towards y, and z.
     Cylindrical,
-    /// Longitude around z and latitude from the south pole, each from 0 to 1.
+    /// Longitude as of a cylinder, and latitude from the pole at -z, each from 0 to 1.
     Spherical,
     /// The planar projections along x, y and z, mixed by the fourth powers of the normal's coordinates.
     Triplanar,
@@ -101,7 +101,8 @@ impl Mapping {
         let turn = self.axes.inverse();
         let q = turn * (si.p() - self.center);
         if let Projection::Triplanar = self.projection {
-            let n = (turn * si.n()).powf(4.0).abs();
+            let n = turn * si.n();
+            let n = (n * n) * (n * n);
             let sum = n.element_sum();
             let planes = [([q.y, q.z], n.x), ([q.x, q.z], n.y), ([q.x, q.y], n.z)];
             points.extend(
@@ -116,12 +117,15 @@ impl Mapping {
     }
 
     fn projected(&self, q: Vec3) -> Vec2 {
-        let longitude = || q.y.atan2(q.x) / TAU;
+        let longitude = || {
+            let turns = q.y.atan2(q.x) / TAU;
+            if turns < 0.0 { turns + 1.0 } else { turns }
+        };
         match self.projection {
             Projection::Cylindrical => Vec2::new(longitude(), q.z),
             Projection::Spherical => {
-                let z = (q.z / q.length()).clamp(-1.0, 1.0);
-                Vec2::new(longitude(), z.asin() * FRAC_1_PI + 0.5)
+                let latitude = q.z.atan2(q.truncate().length());
+                Vec2::new(longitude(), latitude * FRAC_1_PI + 0.5)
             }
             _ => q.truncate(),
         }

@@ -1,6 +1,7 @@
 //! [`TextureKey`] and [`Textures`]: how scene files refer to textures.
 
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -126,8 +127,8 @@ pub struct Textures {
     images: Arc<Mutex<Images>>,
 }
 
-/// Images that were decoded, by file and curve; `None` for files that cannot be.
-type Images = BTreeMap<(PathBuf, Curve), Option<Arc<Texels>>>;
+/// Images that were decoded, by canonical path and curve.
+type Images = BTreeMap<(PathBuf, Curve), Arc<Texels>>;
 
 impl Textures {
     /// Adds a texture, or replaces the one of that name.
@@ -135,31 +136,31 @@ impl Textures {
         self.named.insert(name.into(), texture);
     }
 
-    /// The pixels of an image file, which is read once for each curve.
+    /// The pixels of an image file, which is read once for each curve, by whatever path.
     ///
     /// # Errors
-    /// Those of [`Image::read`].
+    /// Those of [`Image::read`], and if a value is negative or not finite.
     pub fn image(&self, file: &Path, curve: Curve) -> Result<Arc<Texels>, ReadError> {
         let mut images = self.images.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = images.entry((file.to_owned(), curve)).or_default();
-        if let Some(known) = known {
+        let key = (fs::canonicalize(file).unwrap_or_else(|_| file.to_owned()), curve);
+        if let Some(known) = images.get(&key) {
             return Ok(known.clone());
         }
-        let texels = Arc::new(Texels::new(&Image::read(file)?, curve));
-        *known = Some(texels.clone());
+        let image = Image::read(file)?;
+        Texels::check(&image)
+            .map_err(|reason| ReadError::Contents { path: file.to_owned(), reason })?;
+        let texels = Arc::new(Texels::new(&image, curve));
+        images.insert(key, texels.clone());
         Ok(texels)
     }
 
-    /// The images that were decoded, in the order of their files; one file twice if it was decoded by two curves.
-    pub fn images(&self) -> impl Iterator<Item = (PathBuf, Arc<Texels>)> + use<> {
-        let images = self.images.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        images.into_iter().filter_map(|((file, _), texels)| Some((file, texels?)))
-    }
-
-    /// The files that were asked for, also those that cannot be decoded.
-    pub fn files(&self) -> impl Iterator<Item = PathBuf> + use<> {
-        let images = self.images.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        images.into_keys().map(|(file, _)| file)
+    /// All images that were read: the file, what its codes mean, and the pixels.
+    pub fn images(&self) -> Vec<(PathBuf, Curve, Arc<Texels>)> {
+        let images = self.images.lock().unwrap_or_else(PoisonError::into_inner);
+        images
+            .iter()
+            .map(|((file, curve), texels)| (file.clone(), *curve, texels.clone()))
+            .collect()
     }
 
     /// The texture that the key's value names, or a constant texture if the value is a number or a colour.

@@ -2,7 +2,7 @@
 
 use glam::UVec2;
 
-use crate::image::{Encoding, Image};
+use crate::image::{Display, Encoding, Image};
 use crate::params::Choice;
 use crate::spectrum::Spectrum;
 
@@ -25,10 +25,12 @@ impl Choice for Curve {
 impl Curve {
     /// What a code in `[0, 1]` stands for.
     pub fn decode(self, code: f32) -> f32 {
-        let code = f64::from(code);
+        self.decoded(f64::from(code))
+    }
+
+    fn decoded(self, code: f64) -> f32 {
         let value = match self {
-            Self::Srgb if code <= 0.04045 => code / 12.92,
-            Self::Srgb => ((code + 0.055) / 1.055).powf(2.4),
+            Self::Srgb => Display::Srgb.decode(code),
             Self::Gamma22 => code.powf(2.2),
             Self::Linear => code,
         };
@@ -59,7 +61,7 @@ impl Texels {
                 let [r, g, b] = pixel.to_array().map(|x| code(x) as u8);
                 [r, g, b, 0]
             });
-            let meanings = std::array::from_fn(|code| curve.decode(code as f32 / 255.0));
+            let meanings = std::array::from_fn(|code| curve.decoded(code as f64 / 255.0));
             Pixels::Codes(codes.collect(), Box::new(meanings))
         } else {
             let curve = if is_linear { Curve::Linear } else { curve };
@@ -67,6 +69,21 @@ impl Texels {
             Pixels::Values(image.pixels.iter().map(value).collect())
         };
         Self { size: image.size, pixels }
+    }
+
+    /// What keeps an image from being a texture: a value that is negative or not finite.
+    pub(super) fn check(image: &Image) -> Result<(), String> {
+        let is_sound =
+            |pixel: &Spectrum| pixel.to_array().iter().all(|x| x.is_finite() && *x >= 0.0);
+        let Some(index) = image.pixels.iter().position(|pixel| !is_sound(pixel)) else {
+            return Ok(());
+        };
+        let width = image.size.x as usize;
+        let (x, y, found) = (index % width, index / width, image.pixels[index].to_array());
+        Err(format!(
+            "the pixel of column {x} and row {y}, which count from 0 at the top left, is {found:?}, \
+             expected finite numbers of at least 0"
+        ))
     }
 
     /// Columns and rows.
@@ -80,6 +97,24 @@ impl Texels {
             Pixels::Codes(codes, meanings) => size_of_val(&codes[..]) + size_of_val(&meanings[..]),
             Pixels::Values(values) => size_of_val(&values[..]),
         }
+    }
+
+    /// CRC-32 of the size and all values.
+    #[cfg(feature = "scene-file")]
+    pub(crate) fn checksum(&self) -> u32 {
+        let mut sum = crc32fast::Hasher::new();
+        let mut add = |numbers: &[[u8; 4]]| sum.update(numbers.as_flattened());
+        add(&self.size.to_array().map(u32::to_le_bytes));
+        match &self.pixels {
+            Pixels::Codes(codes, meanings) => {
+                add(&meanings.map(f32::to_le_bytes));
+                add(codes);
+            }
+            Pixels::Values(values) => {
+                values.iter().for_each(|value| add(&value.map(f32::to_le_bytes)));
+            }
+        }
+        sum.finalize()
     }
 
     /// The value of a pixel.

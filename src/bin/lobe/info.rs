@@ -92,9 +92,9 @@ fn scene_text(loaded: &LoadedScene, path: &Path) -> Result<(), Box<dyn Error>> {
 
 /// A line for each material that faces name, and each image.
 fn add_materials(summary: &mut Summary, report: &LoadReport) {
-    for FaceMaterial { name, triangles, is_emitting, .. } in &report.face_materials {
+    for FaceMaterial { name, triangle_count, is_emitting, .. } in &report.face_materials {
         let light = if *is_emitting { ", emitting" } else { "" };
-        summary.add("material", format!("{name}: {triangles} triangles{light}"));
+        summary.add("material", format!("{name}: {triangle_count} triangles{light}"));
     }
     for TextureImage { file, size, bytes, .. } in &report.images {
         let (file, mib) = (file.display(), *bytes as f64 / MIB);

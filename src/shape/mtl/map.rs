@@ -35,7 +35,7 @@ pub fn parse(text: &str) -> Option<MtlMap> {
     while let Some(option) = rest.strip_prefix('-') {
         let (name, after) = word(option)?;
         rest = after;
-        match name {
+        match &*name.to_ascii_lowercase() {
             "s" => rest = numbers(rest, &mut map.scale)?,
             "o" => rest = numbers(rest, &mut map.offset)?,
             // Turbulence is noise that programs do not agree on.
@@ -45,7 +45,7 @@ pub fn parse(text: &str) -> Option<MtlMap> {
             "boost" | "texres" => rest = word(rest)?.1,
             "clamp" => {
                 let (value, after) = word(rest)?;
-                (map.is_clamped, rest) = (value == "on", after);
+                (map.is_clamped, rest) = (value.eq_ignore_ascii_case("on"), after);
             }
             "imfchan" => {
                 let (value, after) = word(rest)?;

@@ -1,8 +1,10 @@
 //! Reader of MTL files, the material libraries of Wavefront OBJ.
 
 mod map;
+mod notes;
 mod report;
 
+use std::collections::HashSet;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
@@ -11,7 +13,8 @@ pub use report::{MtlError, MtlLibrary, MtlMaterial, MtlNote};
 
 use super::obj::{Failure, LogicalLines, text};
 use crate::file;
-use crate::params::shortened;
+use crate::params::Shown;
+use notes::Notes;
 
 /// Reads the MTL file at `path`. [`parse_mtl`] says how.
 ///
@@ -25,8 +28,9 @@ pub fn read_mtl(path: &Path) -> Result<MtlLibrary, MtlError> {
 
 /// Reads MTL text: for each `newmtl` line, the values of the lines below it as they stand there.
 ///
-/// What cannot be read is left out and noted with its line: programs write many keys that others do not know, and a scene should not
-/// fail for that. Lines end and comments begin as in OBJ files. A key that a material has twice has its last value.
+/// What cannot be read is left out and noted with its line, the same thing once: programs write many keys that others do not know, and
+/// a scene should not fail for that. Keys may have any case. Lines end and comments begin as in OBJ files. A key that a material has
+/// twice has its last value.
 ///
 /// ```
 /// let text = "newmtl Brass\nKd 0.9 0.7 0.3\nPr 0.1\nmap_Kd -s 2 2 1 a plank.png\nshine 3\n";
@@ -43,11 +47,14 @@ pub fn read_mtl(path: &Path) -> Result<MtlLibrary, MtlError> {
 /// If reading fails.
 pub fn parse_mtl(name: &str, reader: impl BufRead) -> Result<MtlLibrary, MtlError> {
     let mut lines = LogicalLines::new(reader);
-    let mut library = MtlLibrary::default();
+    let mut parser = Parser::default();
     loop {
         match lines.next() {
-            Ok(None) => return Ok(library),
-            Ok(Some((number, line))) => read_line(&mut library, number, line),
+            Ok(None) => {
+                let Parser { materials, notes, .. } = parser;
+                return Ok(MtlLibrary { materials, notes: notes.finish() });
+            }
+            Ok(Some((number, line))) => parser.read_line(number, line),
             Err(Failure::Io(source)) => return Err(MtlError { name: name.to_owned(), source }),
             // Of lines, only the length can be wrong.
             Err(_) => {
@@ -59,35 +66,47 @@ pub fn parse_mtl(name: &str, reader: impl BufRead) -> Result<MtlLibrary, MtlErro
     }
 }
 
-fn read_line(library: &mut MtlLibrary, number: u64, line: &[u8]) {
-    let line = text(line);
-    let (key, rest) = line.split_once(char::is_whitespace).unwrap_or((&line, ""));
-    let rest = rest.trim();
-    if key.is_empty() {
-        return;
-    }
-    let MtlLibrary { materials, notes } = library;
-    let mut note = |what: String| notes.push(MtlNote { line: number, what });
-    if key == "newmtl" {
-        if materials.iter().any(|known| known.name == rest) {
-            note(format!("material `{}` stands there twice; the first one holds", shortened(rest)));
+#[derive(Default)]
+struct Parser {
+    materials: Vec<MtlMaterial>,
+    names: HashSet<String>,
+    notes: Notes,
+}
+
+impl Parser {
+    fn read_line(&mut self, number: u64, line: &[u8]) {
+        let line = text(line);
+        let (key, rest) = line.split_once(char::is_whitespace).unwrap_or((&line, ""));
+        let rest = rest.trim();
+        if key.is_empty() {
+            return;
         }
-        materials.push(MtlMaterial {
-            name: rest.to_owned(),
-            line: number,
-            ..MtlMaterial::default()
-        });
-        return;
+        if key.eq_ignore_ascii_case("newmtl") {
+            return self.begin(number, rest);
+        }
+        let shown = Shown::name(key);
+        let note = match self.materials.last_mut().map(|material| set(material, key, rest)) {
+            Some(Set::Done) => return,
+            Some(Set::Unknown) => format!("the key `{shown}` is not known"),
+            Some(Set::Unfit(expected)) => {
+                format!("{shown} is `{}`, expected {expected}; it is left out", Shown::name(rest))
+            }
+            None => format!("`{shown}` stands above the first newmtl; it is left out"),
+        };
+        self.notes.add(number, note);
     }
-    let Some(material) = materials.last_mut() else {
-        return note(format!("`{}` stands above the first newmtl", shortened(key)));
-    };
-    let expected = match set(material, key, rest) {
-        Set::Done => return,
-        Set::Unknown => return note(format!("the key `{}` is not known", shortened(key))),
-        Set::Unfit(expected) => expected,
-    };
-    note(format!("{key} is `{}`, expected {expected}; it is left out", shortened(rest)));
+
+    fn begin(&mut self, line: u64, name: &str) {
+        let material = MtlMaterial { name: name.to_owned(), line, ..MtlMaterial::default() };
+        self.materials.push(material);
+        if name.is_empty() {
+            self.notes.add(line, "a newmtl has no name: no face can have it".into());
+        } else if !self.names.insert(name.to_owned()) {
+            let name = Shown::name(name);
+            self.notes
+                .add(line, format!("material `{name}` stands there twice; the first one holds"));
+        }
+    }
 }
 
 /// What became of a line.

@@ -1,19 +1,27 @@
 //! [`MtlLibrary`]: the materials of an MTL file, as they stand there.
 
 use std::fmt::{self, Display, Formatter};
-use std::io;
+use std::io::{self, ErrorKind};
 
 use super::MtlMap;
 use crate::params::Shown;
 
 /// Why an MTL file cannot be read.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: cannot be read: {source}", Shown::line(name))]
+#[error("{}: {}", Shown::line(name), reason(source))]
 pub struct MtlError {
     /// The file, as the caller named it.
     pub name: String,
     /// The error of the operating system.
     pub source: io::Error,
+}
+
+fn reason(source: &io::Error) -> String {
+    match source.kind() {
+        ErrorKind::NotFound => "there is no such file".into(),
+        ErrorKind::IsADirectory => "is a directory, expected an MTL file".into(),
+        _ => format!("cannot be read: {source}"),
+    }
 }
 
 /// The materials of an MTL file.
@@ -22,16 +30,16 @@ pub struct MtlError {
 pub struct MtlLibrary {
     /// In the order of the file. Of two with the same name, the first holds.
     pub materials: Vec<MtlMaterial>,
-    /// What was left out.
+    /// What was left out, each thing once, in the order of the first lines.
     pub notes: Vec<MtlNote>,
 }
 
 /// What was left out of an MTL file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MtlNote {
-    /// The line, counted from 1.
+    /// The first line of which it holds, counted from 1.
     pub line: u64,
-    /// What, and what was expected.
+    /// What, what was expected, and in how many more lines it is the same.
     pub what: String,
 }
 

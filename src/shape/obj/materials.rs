@@ -1,9 +1,11 @@
 //! [`Materials`]: collects the materials that faces name.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::path::PathBuf;
 
 use super::lines::is_blank;
 use super::report::ObjMaterials;
+use crate::file::decoded;
 
 /// Collects `usemtl` and `mtllib` lines.
 #[derive(Default)]
@@ -12,8 +14,9 @@ pub(super) struct Materials {
     indices: HashMap<String, u32>,
     /// The name that is in force, and its index once a face has it.
     current: Option<(String, Option<u32>)>,
-    /// Triangles above the first name.
-    without: usize,
+    /// Triangles so far.
+    triangles: usize,
+    libraries: HashSet<String>,
 }
 
 impl Materials {
@@ -26,16 +29,20 @@ impl Materials {
         });
     }
 
-    /// A `mtllib` line. File names with blanks are allowed, as most programs write only one.
+    /// A `mtllib` line.
     pub fn library(&mut self, rest: &[u8]) {
         let name = text(rest);
-        if !name.is_empty() && !self.found.libraries.contains(&name) {
-            self.found.libraries.push(name);
+        if !name.is_empty() && self.libraries.insert(name.clone()) {
+            self.found.libraries.push(PathBuf::from(name));
         }
     }
 
-    /// The mesh has so many triangles now.
+    /// The mesh has so many triangles now: as many as before, if the face is no polygon.
     pub fn extend(&mut self, triangles: usize) {
+        let before = std::mem::replace(&mut self.triangles, triangles);
+        if before == triangles {
+            return;
+        }
         let index = match &mut self.current {
             None => ObjMaterials::NONE,
             Some((_, Some(index))) => *index,
@@ -49,12 +56,8 @@ impl Materials {
         let of_triangles = &mut self.found.of_triangles;
         if index != ObjMaterials::NONE || !of_triangles.is_empty() {
             // Those above the first name have none.
-            if of_triangles.is_empty() {
-                of_triangles.resize(self.without, ObjMaterials::NONE);
-            }
+            of_triangles.resize(before, ObjMaterials::NONE);
             of_triangles.resize(triangles, index);
-        } else {
-            self.without = triangles;
         }
     }
 
@@ -69,9 +72,5 @@ pub(in crate::shape) fn text(rest: &[u8]) -> String {
     let is_end = |b: &u8| is_blank(*b);
     let start = rest.iter().position(|b| !is_end(b)).unwrap_or(rest.len());
     let end = rest.iter().rposition(|b| !is_end(b)).map_or(start, |last| last + 1);
-    let bytes = &rest[start..end];
-    match str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),
-    }
+    decoded(&rest[start..end])
 }

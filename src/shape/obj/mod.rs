@@ -41,11 +41,20 @@ pub fn read_obj(path: &Path) -> Result<ObjMesh, ObjError> {
     let file = file::open(path).map_err(unreadable)?;
     let mut read = parse_obj(&name, BufReader::with_capacity(1 << 17, file))?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    for library in &mut read.materials.libraries {
-        // Names have either slash.
-        *library = folder.join(library.replace('\\', "/")).to_string_lossy().into_owned();
-    }
+    let libraries = std::mem::take(&mut read.materials.libraries);
+    read.materials.libraries =
+        libraries.iter().flat_map(|text| library_files(folder, &text.to_string_lossy())).collect();
     Ok(read)
+}
+
+/// The files that a `mtllib` line names: one, whose name may have blanks, as most programs write it; or several, if there is none of that
+/// name, but one for each word.
+fn library_files(folder: &Path, text: &str) -> Vec<PathBuf> {
+    if let Some(whole) = file::find(folder, text) {
+        return vec![whole];
+    }
+    let words = text.split_ascii_whitespace().map(|name| file::find(folder, name));
+    words.collect::<Option<Vec<_>>>().unwrap_or_else(|| vec![folder.join(text.replace('\\', "/"))])
 }
 
 /// Reads OBJ text as one mesh. `name` is the name of the file in messages.

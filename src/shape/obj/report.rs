@@ -1,5 +1,7 @@
 //! [`ObjMesh`]: the result of reading an OBJ file, and [`ObjReport`].
 
+use std::path::PathBuf;
+
 use crate::shape::mesh::TriangleMesh;
 
 /// A mesh read from an OBJ file.
@@ -18,12 +20,12 @@ pub struct ObjMesh {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ObjMaterials {
-    /// The names of `usemtl` lines that faces follow, each once, in the order of the file. Bytes that are no UTF-8 are taken for Latin-1.
+    /// The names of `usemtl` lines that triangles follow, each once, in the order of the file. A name that is no UTF-8 is taken for Latin-1.
     pub names: Vec<String>,
     /// For each triangle, the index of its name, or [`ObjMaterials::NONE`] for faces above the first `usemtl`. Empty if no face follows one.
     pub of_triangles: Vec<u32>,
-    /// The file names of `mtllib` lines, in the order of the file; [`read_obj`](super::read_obj) puts the folder of the OBJ file in front.
-    pub libraries: Vec<String>,
+    /// The texts of `mtllib` lines, each once, in the order of the file. From [`read_obj`](super::read_obj), the files that they name.
+    pub libraries: Vec<PathBuf>,
 }
 
 impl ObjMaterials {
