@@ -96,7 +96,9 @@ fn add_materials(summary: &mut Summary, report: &LoadReport) {
         let light = if *is_emitting { ", emitting" } else { "" };
         summary.add("material", format!("{name}: {triangle_count} triangles{light}"));
     }
+    let here = std::env::current_dir().unwrap_or_default();
     for TextureImage { file, size, bytes, .. } in &report.images {
+        let file = file.strip_prefix(&here).unwrap_or(file);
         let (file, mib) = (file.display(), *bytes as f64 / MIB);
         summary.add("texture", format!("{file}: {}x{} pixels, {mib:.2} MiB", size.x, size.y));
     }
