@@ -81,7 +81,7 @@ impl LoadedScene {
 
 /// Reads the scene file at `path` with `overrides`. See [`parse_scene`].
 ///
-/// If the name ends in .obj it is a model, for which a scene is made: with the materials of its MTL files, under a white sky, seen from the
+/// If the name ends in .obj it is a model, for which a scene is made: with the materials of its MTL files, a grey sky and a key light, seen from the
 /// front, right and above by a camera that stands where all of it is in the picture, in a right-handed world with y up. The shape
 /// is `model`, so that `shape.model.rotate` and others can be overridden. [`LoadedScene::to_toml`] has the scene as text.
 ///

@@ -1,4 +1,4 @@
-//! Scenes that are made for an OBJ file alone: the model, a camera that sees all of it, and a sky.
+//! Scenes that are made for an OBJ file alone: the model, a camera that sees all of it, a sky and a key light.
 
 use std::f32::consts::PI;
 use std::path::Path;
@@ -20,6 +20,12 @@ const SPP: u64 = 64;
 /// Glass takes two refractions for each of its surfaces.
 const MAX_DEPTH: u64 = 16;
 
+/// Radiance of the sky. Together with the key light, white surfaces are brighter than what is behind them, and are not clipped.
+const SKY: f32 = 0.6;
+/// Irradiance of the key light, from above and left of the camera.
+const KEY: f32 = 1.5;
+const KEY_DIRECTION: [f32; 3] = [0.55, -0.75, -0.65];
+
 /// Where the camera stands: right of the front, which is towards +z.
 const AZIMUTH: f32 = 30.0 * PI / 180.0;
 const ELEVATION: f32 = 20.0 * PI / 180.0;
@@ -37,13 +43,19 @@ pub fn is_model(path: &Path) -> bool {
 pub fn tree(path: &Path) -> Node {
     let resolution = RESOLUTION.to_array().map(u64::from).into_iter().collect();
     let path = path.to_string_lossy();
+    let sky = table([("type", "sky".into()), ("radiance", array([SKY; 3]))]);
+    let key = table([
+        ("type", "distant".into()),
+        ("direction", array(KEY_DIRECTION)),
+        ("irradiance", array([KEY; 3])),
+    ]);
     Node::table([
         ("camera", table([("handedness", "right".into()), ("fov", FOV.into())])),
         ("film", table([("resolution", resolution)])),
         ("sampler", table([("spp", SPP.into())])),
         ("integrator", table([("type", "path".into()), ("max_depth", MAX_DEPTH.into())])),
         ("material", table([(GREY, table([("type", "matte".into())]))])),
-        ("light", table([("sky", table([("type", "sky".into()), ("radiance", color(1.0))]))])),
+        ("light", table([("sky", sky), ("key", key)])),
         ("shape", table([(NAME, table([("obj", (&*path).into())]))])),
     ])
 }
@@ -52,8 +64,8 @@ fn table<'k>(entries: impl IntoIterator<Item = (&'k str, Value)>) -> Value {
     Node::table(entries).value
 }
 
-fn color(grey: f32) -> Value {
-    [grey; 3].into_iter().collect()
+fn array(numbers: [f32; 3]) -> Value {
+    numbers.into_iter().collect()
 }
 
 /// Sets where the camera stands, unless an override does or replaces the camera. `points` are in world space.
@@ -71,7 +83,7 @@ pub fn place_camera(root: &mut Node, points: impl Iterator<Item = Vec3> + Clone,
     let Ok(settings) = settings.framing(points, film) else { return };
     for (key, point) in [("look_at", settings.look_at), ("eye", settings.eye)] {
         if camera.iter().all(|entry| entry.key != key) {
-            camera.insert(0, entry(key, point.to_array().into_iter().collect()));
+            camera.insert(0, entry(key, array(point.to_array())));
         }
     }
 }

@@ -20,8 +20,9 @@ const EXAMPLES: &str = r#"Examples:
   lobe render chapter8.toml --set film.resolution=[100,100] --set camera.fov=40
   lobe render chapter8.toml --set 'shape.dragon.obj="other.obj"'    strings need their quotes
 
-A model, .obj, is rendered under a white sky by a camera that sees all of it, in a right-handed world with y up: `lobe info
-model.obj --scene` prints that scene. Scene files have PBRT's left-handed camera unless they say otherwise.
+A model, .obj, is rendered under a grey sky and a key light, by a camera that sees all of it from the front, right and above.
+Its world is right-handed with y up; scene files have PBRT's left-handed camera unless they say otherwise. `lobe info
+model.obj --scene` prints the whole scene, to be changed.
 
 A PNG is for viewing. An EXR contains linear radiance, its variance, the number of samples, and
 normal, depth and albedo of the first hits; only with one is the error of the picture printed.
