@@ -130,8 +130,11 @@ fn prepare_model(
     let corners = loaded.mesh.indices.iter().flatten();
     let corner = |&i: &u32| stage.transform.transform_point3(loaded.mesh.positions[i as usize]);
     model::place_camera(&mut document.root, corners.map(corner), stage.resolution);
-    if stage.is_bare && loaded.materials.of_triangles.is_empty() {
-        model::make_grey(&mut document.root);
+    if stage.is_bare {
+        match loaded.materials.of_triangles.is_empty() {
+            true => model::make_grey(&mut document.root),
+            false => model::drop_grey(&mut document.root),
+        }
     }
     Ok(Some(loaded))
 }

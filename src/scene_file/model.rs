@@ -95,6 +95,13 @@ pub fn make_grey(root: &mut Node) {
     }
 }
 
+/// Takes the grey material away from a model that has others.
+pub fn drop_grey(root: &mut Node) {
+    if let Value::Table(entries) = &mut root.value {
+        entries.retain(|entry| entry.key != "material");
+    }
+}
+
 /// From the model to the camera.
 fn direction(points: impl Iterator<Item = Vec3>) -> Vec3 {
     let (mut min, mut max) = (Vec3::INFINITY, Vec3::NEG_INFINITY);

@@ -13,7 +13,7 @@ const EXAMPLES: &str = r#"Examples:
   lobe render chapter8.toml                             writes chapter8.png and chapter8.exr here
   lobe render chapter8.toml -o a.png --spp 256          writes only a.png, with less noise
   lobe render model.obj                                 an OBJ file with its MTL file: writes model.png and model.exr
-  lobe render model.obj --set 'shape.model.rotate={axis=[1,0,0],degrees=-90}'    if z is up in it
+  lobe render model.obj --set shape.model.rotate=[1,0,0,-90]    if z is up in it
   lobe render dragon-sky.toml --time 10                 the best picture in ten seconds
   lobe render dragon-sky.toml --spp 65536 --resume      goes on where it was ended or killed
   lobe render dragon-sky.toml --shard 3/8               one of eight parts, for lobe merge
