@@ -34,7 +34,7 @@ fn folder(test: &str) -> Folder {
 
 const SMALL: &str = "--set film.resolution=[40,30] --spp 4";
 
-/// Red is on the left: not mirrored, and the MTL file was found. Seen to fail with BREAK.
+/// Red is on the left: not mirrored, and the MTL file was found. Seen to fail with a left-handed camera.
 #[test]
 fn a_model_alone_is_rendered() {
     let folder = folder("model");
@@ -137,7 +137,7 @@ obj = "model.obj""#
     folder.fails("info s.toml --scene", "`s.toml` is a scene file already: --scene is for models");
 }
 
-/// Of many notes render prints the first, and info all. Seen to fail with BREAK.
+/// Of many notes render prints the first, and info all. Seen to fail without a limit.
 #[test]
 fn many_notes_are_cut_short() {
     let folder = folder("model-notes");
@@ -156,7 +156,7 @@ fn many_notes_are_cut_short() {
     assert_eq!(of(&folder.prints("info model.obj")), expected);
 }
 
-/// What the model refers to is not written over. Seen to fail with BREAK.
+/// What the model refers to is not written over. Seen to fail with the files of the scene file alone.
 #[test]
 fn files_of_a_model_are_kept() {
     let folder = folder("model-files");
