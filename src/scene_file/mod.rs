@@ -12,8 +12,10 @@ mod faces;
 mod identity;
 mod model;
 mod overrides;
+mod prepare;
 mod report;
 mod sections;
+mod text;
 mod toml_tree;
 mod write;
 
@@ -26,12 +28,11 @@ pub use sections::SECTIONS;
 
 use crate::accel::InstructionSet;
 use crate::clock::Stopwatch;
-use crate::file;
 use crate::material::Material;
-use crate::params::{Document, Fault, Mark};
+use crate::params::{Document, Fault};
 use crate::render::RenderSettings;
 use crate::scene::{Scene, View};
-use crate::shape::{ObjMesh, read_obj};
+use crate::shape::ObjMesh;
 use crate::texture::Textures;
 use assemble::Built;
 use document::Source;
@@ -106,37 +107,13 @@ pub fn read_scene_for(
     let mut loaded = if model::is_model(path) {
         let source = Source::of_model(path, model::tree(path), overrides);
         let mut document = source.parse()?;
-        let mesh = prepare_model(&source, path, &mut document)?;
+        let mesh = prepare::mesh(&source, path, &mut document)?;
         finish(instruction_set, &source, document, mesh)?
     } else {
-        parse_for(instruction_set, path, &read_scene_text(path)?, overrides)?
+        parse_for(instruction_set, path, &text::of_scene(path)?, overrides)?
     };
     loaded.report.seconds = start.seconds() - loaded.scene.build_seconds();
     Ok(loaded)
-}
-
-/// Loads the mesh of a model, and adds what depends on it to its scene. `None` if an override took the shape away.
-fn prepare_model(
-    source: &Source,
-    path: &Path,
-    document: &mut Document,
-) -> Result<Option<ObjMesh>, SceneFileError> {
-    let Some(stage) = source.place(assemble::stage(document, model::NAME))? else {
-        return Ok(None);
-    };
-    // By its path unless an override names another: the tree holds text alone.
-    let is_own = document.root.follow(&["shape", model::NAME, "obj"]).mark.source == 0;
-    let loaded = if is_own { read_obj(path)? } else { source.place((stage.load)())? };
-    let corners = loaded.mesh.indices.iter().flatten();
-    let corner = |&i: &u32| stage.transform.transform_point3(loaded.mesh.positions[i as usize]);
-    model::place_camera(&mut document.root, corners.map(corner), stage.resolution);
-    if stage.is_bare {
-        match loaded.materials.of_triangles.is_empty() {
-            true => model::make_grey(&mut document.root),
-            false => model::drop_grey(&mut document.root),
-        }
-    }
-    Ok(Some(loaded))
 }
 
 /// Reads only sampler and integrator of the scene file at `path` with `overrides`. Meshes are not loaded.
@@ -168,33 +145,9 @@ fn read_with<T>(
     overrides: &[&str],
     read: impl FnOnce(&Document) -> Result<T, Fault>,
 ) -> Result<T, SceneFileError> {
-    let text = read_text(path)?;
+    let text = text::of_file(path)?;
     let source = Source::new(path, &text, overrides);
     source.place(read(&source.parse()?))
-}
-
-/// Maximum size of a file, in MiB: for scenes of more than three million materials.
-const MOST: u64 = 128;
-
-/// The text of a scene file, whose name has to tell that it is one.
-fn read_scene_text(path: &Path) -> Result<String, SceneFileError> {
-    let is_toml = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
-    let unreadable = |source| SceneFileError::Unreadable { path: path.to_owned(), source };
-    if !is_toml {
-        file::open(path).map_err(unreadable)?;
-        return Err(SceneFileError::Ending(path.to_owned()));
-    }
-    read_text(path)
-}
-
-fn read_text(path: &Path) -> Result<String, SceneFileError> {
-    let unreadable = |source| SceneFileError::Unreadable { path: path.to_owned(), source };
-    String::from_utf8(file::read(path, MOST).map_err(unreadable)?).map_err(|error| {
-        let offset = error.utf8_error().valid_up_to();
-        let place = document::file_place(path, error.as_bytes(), offset);
-        let problem = TextProblem::Toml("the text is not UTF-8".into());
-        SceneFileError::Wrong { place, problem: Fault::new(Mark::default(), problem).problem }
-    })
 }
 
 /// Builds a scene from the text of a scene file and the meshes it refers to.

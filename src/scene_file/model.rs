@@ -39,7 +39,7 @@ pub fn is_model(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"))
 }
 
-/// The tables of a scene with the model at `path`, for overrides to be applied to. [`complete`] adds what depends on these.
+/// The tables of a scene with the model at `path`, for overrides to be applied to. What depends on these is added later.
 pub fn tree(path: &Path) -> Node {
     let resolution = RESOLUTION.to_array().map(u64::from).into_iter().collect();
     let path = path.to_string_lossy();
