@@ -54,6 +54,7 @@
 mod block;
 mod equirectangular;
 mod error;
+mod framing;
 mod orthographic;
 mod perspective;
 mod placement;

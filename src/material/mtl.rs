@@ -5,10 +5,12 @@
 //! | `Pm` above 1/2 | metal that reflects `Kd` at the normal, white without it |
 //! | `illum` 4, 6, 7 or 9 | glass of index `Ni`; refracted light is scaled by `Tf` |
 //! | `illum` 3 or 5 with black `Kd`, and `Ks` | metal that reflects `Ks` |
-//! | `Ks` above 0, with `illum` 2 or none | plastic: a coat of index `Ni` over `Kd` |
+//! | `Ks` above 0, with `illum` 2, 3, 5, 8 or none | plastic: a coat of index `Ni` over `Kd` |
 //! | else | matte, `Kd` |
 //!
 //! The first row that fits holds. An index that is missing, at most 1 or above 10 is 1.5, and a missing `Kd` is 0.5. Roughness is `Pr`, perceptual, or α = √(2 / (Ns + 2)) from Phong's exponent `Ns` (Walter et al. 2007, section 5.2), else 0.
+//! Where the opacity, `d` or 1 - `Tr`, is below 1 and there is no glass, the rest of the material is a thin pane, through which light goes straight:
+//! of index `Ni` if there is `Ks`, else one that reflects nothing; what it lets through is scaled by `Tf`.
 //! `map_Kd` is multiplied by `Kd`, unless that is black.
 
 use std::path::Path;
@@ -16,7 +18,10 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
-use super::{GlassMaterial, Material, MatteMaterial, MetalMaterial, PlasticMaterial, Roughness};
+use super::{
+    GlassMaterial, Material, MatteMaterial, MetalMaterial, MixMaterial, PlasticMaterial, Roughness,
+    ThinGlassMaterial,
+};
 use crate::file;
 use crate::image::ReadError;
 use crate::interaction::SurfaceInteraction;
@@ -48,28 +53,33 @@ impl MtlMaterials<'_> {
         let kd = self.color(mtl.kd, map, &mut notes);
         let ks = Spectrum::from(mtl.ks.unwrap_or_default());
         let eta = mtl.ni.filter(|ni| *ni > 1.0 && *ni <= 10.0).unwrap_or(1.5);
+        let filter = Spectrum::from(mtl.tf.unwrap_or([1.0; 3]));
         let material: Arc<dyn Material> = match mtl.illum {
             _ if is_metal => {
                 let color = mtl.kd.map_or(Spectrum::WHITE, Spectrum::from);
                 Arc::new(MetalMaterial::reflecting(color).with_roughness(roughness(mtl)))
             }
             _ if has_glass => {
-                let tf = Spectrum::from(mtl.tf.unwrap_or([1.0; 3]));
-                Arc::new(GlassMaterial::new(eta).with_kt(tf).with_roughness(roughness(mtl)))
+                Arc::new(GlassMaterial::new(eta).with_kt(filter).with_roughness(roughness(mtl)))
             }
             Some(3 | 5) if kd.constant() == Some(Spectrum::BLACK) && !ks.is_black() => {
                 Arc::new(MetalMaterial::reflecting(ks).with_roughness(roughness(mtl)))
             }
-            None | Some(2) if !ks.is_black() => {
+            None | Some(2 | 3 | 5 | 8) if !ks.is_black() => {
                 Arc::new(PlasticMaterial::new(kd, eta).with_roughness(roughness(mtl)))
             }
             _ => Arc::new(MatteMaterial::new(kd)),
         };
-        // Glass lets light through by itself.
-        let is_open = |opacity: Option<f32>| opacity.is_some_and(|d| d < 1.0) && !has_glass;
+        let material = match opacity(mtl) {
+            // Glass lets light through by itself.
+            opacity if opacity < 1.0 && !has_glass => {
+                let eta = if ks.is_black() { 1.0 } else { eta };
+                let pane = ThinGlassMaterial::new(eta).with_kt(filter);
+                Arc::new(MixMaterial::new(pane, material, opacity))
+            }
+            _ => material,
+        };
         let unused = [
-            ("d", is_open(mtl.d)),
-            ("Tr", is_open(mtl.tr.map(|tr| 1.0 - tr))),
             ("map_Kd", mtl.map_kd.is_some() && map.is_none()),
             ("map_d", mtl.map_d.is_some()),
             ("map_Pr", mtl.map_pr.is_some()),
@@ -124,6 +134,11 @@ impl MtlMaterials<'_> {
         let image = image.with_mapping(mapping);
         Ok(if map.is_clamped { image.with_wrap(Wrap::Clamp) } else { image })
     }
+}
+
+/// `d`, or 1 - `Tr`.
+fn opacity(mtl: &MtlMaterial) -> f32 {
+    mtl.d.or(mtl.tr.map(|tr| 1.0 - tr)).unwrap_or(1.0).clamp(0.0, 1.0)
 }
 
 fn roughness(mtl: &MtlMaterial) -> Roughness {

@@ -48,8 +48,7 @@ pub fn describe(document: &Document) -> Result<Description, Fault> {
     let camera =
         sections::CAMERA.read(camera, |kind, table| (kind.read)(table, film.resolution))?;
     let view = view(camera, film, document)?;
-    let integrator = root.table(sections::INTEGRATOR.key)?;
-    let integrator = sections::INTEGRATOR.read(integrator, |kind, table| (kind.read)(table))?;
+    let settings = settings(document)?;
     let mut textures = Textures::default();
     for (name, table) in root.tables(sections::TEXTURE.key)? {
         let texture = sections::TEXTURE.read(table, |kind, table| (kind.read)(table, &textures))?;
@@ -69,10 +68,7 @@ pub fn describe(document: &Document) -> Result<Description, Fault> {
     let shape = |(name, table): (&str, Table)| Ok((name.to_owned(), shape(table)?));
     Ok(Description {
         view,
-        settings: RenderSettings {
-            sampler: sampler(root.table(sections::SAMPLER.key)?)?,
-            integrator,
-        },
+        settings,
         materials,
         textures,
         lights: all(root.tables(sections::LIGHT.key)?, light)?,
@@ -141,6 +137,47 @@ fn shape(table: Table) -> Result<Shape, Fault> {
             transform: Affine3A::from_scale_rotation_translation(scale, rotation, translation),
         })
     })
+}
+
+/// What the camera of a model depends on.
+pub struct Stage {
+    /// Of the film.
+    pub resolution: UVec2,
+    pub load: Load,
+    /// From mesh to world space.
+    pub transform: Affine3A,
+    /// Whether the shape has neither material nor emission.
+    pub is_bare: bool,
+}
+
+/// Reads film and shape alone; `None` without a shape of this name.
+pub fn stage(document: &Document, name: &str) -> Result<Option<Stage>, Fault> {
+    let root = document.table("the scene", &SECTIONS.map(|section| section.key()))?;
+    let resolution = film(root.table(sections::FILM.key)?)?.resolution;
+    let mut shapes = root.tables(sections::SHAPE.key)?.into_iter();
+    let Some((_, table)) = shapes.find(|(known, _)| *known == name) else { return Ok(None) };
+    let Shape { load, transform, missing, .. } = shape(table)?;
+    Ok(Some(Stage { resolution, load, transform, is_bare: missing.is_some() }))
+}
+
+/// Reads sampler and integrator alone.
+pub fn settings(document: &Document) -> Result<RenderSettings, Fault> {
+    let root = document.table("the scene", &SECTIONS.map(|section| section.key()))?;
+    let integrator = root.table(sections::INTEGRATOR.key)?;
+    Ok(RenderSettings {
+        sampler: sampler(root.table(sections::SAMPLER.key)?)?,
+        integrator: sections::INTEGRATOR.read(integrator, |kind, table| (kind.read)(table))?,
+    })
+}
+
+impl Description {
+    /// The same with the mesh of a shape, which was loaded before.
+    pub fn with_mesh(mut self, name: &str, mesh: ObjMesh) -> Self {
+        if let Some((_, shape)) = self.shapes.iter_mut().find(|(known, _)| known == name) {
+            shape.load = Box::new(move || Ok(mesh));
+        }
+        self
+    }
 }
 
 /// A scene whose meshes are loaded.

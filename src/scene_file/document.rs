@@ -5,37 +5,56 @@ use std::path::{Path, PathBuf};
 use super::error::{Place, SceneFileError};
 use super::overrides;
 use super::toml_tree::parse;
-use crate::params::{Document, Fault};
+use crate::params::{Document, Fault, Node};
 
 /// The texts of a scene: index 0 is the file, the others are the overrides in their order.
 pub struct Source<'a> {
     path: &'a Path,
-    text: &'a str,
+    origin: Origin<'a>,
     overrides: &'a [&'a str],
+}
+
+/// Where source 0 comes from.
+enum Origin<'a> {
+    Text(&'a str),
+    /// It was made for the model at the path.
+    Tree(Node),
 }
 
 impl<'a> Source<'a> {
     pub fn new(path: &'a Path, text: &'a str, overrides: &'a [&'a str]) -> Self {
-        Self { path, text: text.strip_prefix('\u{FEFF}').unwrap_or(text), overrides }
+        let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);
+        Self { path, origin: Origin::Text(text), overrides }
+    }
+
+    /// A scene that was made for the model at `path`.
+    pub fn of_model(path: &'a Path, tree: Node, overrides: &'a [&'a str]) -> Self {
+        Self { path, origin: Origin::Tree(tree), overrides }
     }
 
     /// Parses the file and applies the overrides in order. Paths in the file are relative to its folder, paths in
-    /// overrides to the current directory.
+    /// overrides and in scenes of models to the current directory.
     pub fn parse(&self) -> Result<Document, SceneFileError> {
-        let mut root = self.place(parse(self.text, 0))?;
+        let (mut root, folder) = match &self.origin {
+            Origin::Text(text) => {
+                let folder = self.path.parent().map_or(PathBuf::new(), Path::to_owned);
+                (self.place(parse(text, 0))?, folder)
+            }
+            Origin::Tree(tree) => (tree.clone(), PathBuf::new()),
+        };
         for (i, text) in self.overrides.iter().enumerate() {
             self.place(overrides::apply(&mut root, text, i + 1))?;
         }
-        let folder = self.path.parent().map_or(PathBuf::new(), Path::to_owned);
         Ok(Document::in_folders(root, vec![folder]))
     }
 
     /// Converts the mark of a fault to a place in a file or an override.
     pub fn place<T>(&self, result: Result<T, Fault>) -> Result<T, SceneFileError> {
         result.map_err(|Fault { mark, problem }| {
-            let place = match mark.source {
-                0 => file_place(self.path, self.text.as_bytes(), mark.offset),
-                i => Place::Override { text: self.overrides[i - 1].to_owned() },
+            let place = match (mark.source, &self.origin) {
+                (0, Origin::Text(text)) => file_place(self.path, text.as_bytes(), mark.offset),
+                (0, Origin::Tree(_)) => Place::Model { path: self.path.to_owned() },
+                (i, _) => Place::Override { text: self.overrides[i - 1].to_owned() },
             };
             SceneFileError::Wrong { place, problem }
         })

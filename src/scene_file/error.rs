@@ -5,6 +5,7 @@ use std::io;
 use std::path::PathBuf;
 
 use crate::params::{Problem, Shown};
+use crate::shape::ObjError;
 
 /// Why a scene file cannot be read. Each message is one sentence that begins with the position:
 /// ``scene.toml:3:1: unknown key `fvo` in [camera]; did you mean `fov`?``
@@ -19,6 +20,12 @@ pub enum SceneFileError {
         /// The system's error.
         source: io::Error,
     },
+    /// The name of a file that exists ends neither in .toml nor in .obj.
+    #[error("{}: expected a scene file, .toml, or a model, .obj", Shown::path(.0))]
+    Ending(PathBuf),
+    /// The model cannot be read.
+    #[error(transparent)]
+    Model(#[from] ObjError),
     /// The file can be read, but its contents are invalid.
     #[error("{place}: {problem}")]
     Wrong {
@@ -50,6 +57,11 @@ pub enum Place {
         /// The column in characters, counted from 1.
         column: usize,
     },
+    /// In the scene that is made for an OBJ file alone.
+    Model {
+        /// The path of the OBJ file, as passed by the caller.
+        path: PathBuf,
+    },
     /// In an override.
     Override {
         /// The whole override.
@@ -61,6 +73,7 @@ impl Display for Place {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         match self {
             Self::File { path, line, column } => write!(f, "{}:{line}:{column}", Shown::path(path)),
+            Self::Model { path } => write!(f, "scene of {}", Shown::path(path)),
             Self::Override { text } if text.is_empty() => f.write_str("--set ''"),
             Self::Override { text } => write!(f, "--set {}", Shown::line(text)),
         }

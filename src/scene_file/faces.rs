@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::report::FaceMaterial;
 use crate::material::{Material, MatteMaterial, MtlMaterials};
 use crate::params::{Shown, quoted};
 use crate::scene::{Emission, SceneBuilder};
@@ -31,6 +32,10 @@ pub struct Found {
     pub identity: Vec<String>,
     /// The MTL files.
     pub files: Vec<PathBuf>,
+    /// The materials that were made for faces.
+    pub materials: Vec<(String, Arc<dyn Material>)>,
+    /// How many triangles have which.
+    pub counts: Vec<FaceMaterial>,
 }
 
 /// A material of an MTL file, and the index of the file.
@@ -85,6 +90,9 @@ impl<'a> FaceMaterials<'a> {
                     Made { key: self.add_material(&mut builder, shape, "", grey()), emission: None }
                 }
             };
+            let (triangle_count, is_emitting) = (triangles.len(), emission.is_some());
+            let count = FaceMaterial { name: key.clone(), triangle_count, is_emitting };
+            self.found.counts.push(count);
             match emission {
                 Some(radiance) => {
                     let name = format!("{shape}/{}", name.unwrap_or_default());
@@ -159,6 +167,7 @@ impl<'a> FaceMaterials<'a> {
         while !self.taken.insert(key.clone()) {
             key.push('\'');
         }
+        self.found.materials.push((key.clone(), material.clone()));
         *builder = std::mem::take(builder).material(key.clone(), material);
         key
     }

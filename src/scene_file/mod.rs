@@ -10,24 +10,29 @@ mod document;
 mod error;
 mod faces;
 mod identity;
+mod model;
 mod overrides;
+mod prepare;
+mod report;
 mod sections;
+mod text;
 mod toml_tree;
+mod write;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 pub use error::{Place, SceneFileError, TextProblem};
+pub use report::{FaceMaterial, LoadReport, TextureImage};
 pub use sections::SECTIONS;
 
 use crate::accel::InstructionSet;
 use crate::clock::Stopwatch;
-use crate::file;
 use crate::material::Material;
-use crate::params::{Document, Fault, Mark};
+use crate::params::{Document, Fault};
 use crate::render::RenderSettings;
 use crate::scene::{Scene, View};
-use crate::shape::ObjReport;
+use crate::shape::ObjMesh;
 use crate::texture::Textures;
 use assemble::Built;
 use document::Source;
@@ -41,7 +46,7 @@ pub struct LoadedScene {
     pub view: View,
     /// Sampler and integrator.
     pub settings: RenderSettings,
-    /// Load time and warnings about meshes.
+    /// Load time, warnings, and what was found in MTL files.
     pub report: LoadReport,
     materials: Vec<(String, Arc<dyn Material>)>,
     textures: Textures,
@@ -50,15 +55,22 @@ pub struct LoadedScene {
 }
 
 impl LoadedScene {
-    /// The materials of the file by name, in its order, whether or not a shape has them.
-    pub fn materials(&self) -> impl ExactSizeIterator<Item = (&str, &dyn Material)> {
-        self.materials.iter().map(|(name, material)| (name.as_str(), &**material))
+    /// The materials of the file by name, in its order, whether or not a shape has them; then those of MTL files that faces name.
+    pub fn materials(&self) -> impl Iterator<Item = (&str, &dyn Material)> {
+        let all = self.materials.iter().chain(&self.faces.materials);
+        all.map(|(name, material)| (name.as_str(), &**material))
     }
 
     /// The files that the scene refers to, with those that they refer to: MTL files and images. The scene file is not among them.
     pub fn files(&self) -> Vec<PathBuf> {
         let images = self.textures.images().into_iter().map(|(file, ..)| file);
         self.document.files().into_iter().chain(self.faces.files.clone()).chain(images).collect()
+    }
+
+    /// The text of a scene file with all values, those of overrides among them. Its paths are those of the file, which are relative to the
+    /// folder of the file, and those of overrides and of the scene of an OBJ file, which are relative to the current directory.
+    pub fn to_toml(&self) -> String {
+        write::toml(&self.document.root)
     }
 
     /// What is rendered, as lines `key = value`: the version of this crate, all values of the file and the overrides, and
@@ -68,23 +80,15 @@ impl LoadedScene {
     }
 }
 
-/// Load time of a scene, and warnings about its meshes.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct LoadReport {
-    /// Wall-clock time in seconds, without building the acceleration structure.
-    pub seconds: f64,
-    /// Warnings about each mesh, in the order of [`Scene::shapes`].
-    pub meshes: Vec<ObjReport>,
-    /// What was left out of MTL files, with file and line, and faces without a material.
-    pub notes: Vec<String>,
-}
-
 /// Reads the scene file at `path` with `overrides`. See [`parse_scene`].
 ///
+/// If the name ends in .obj it is a model, for which a scene is made: with the materials of its MTL files, a grey sky and a key light, seen from the
+/// front, right and above by a camera that stands where all of it is in the picture, in a right-handed world with y up. The shape
+/// is `model`, so that `shape.model.rotate` and others can be overridden. [`LoadedScene::to_toml`] has the scene as text.
+///
 /// # Errors
-/// If the file cannot be read, is not an ordinary one, or has more than 128 MiB, and those of [`parse_scene`]. Messages
-/// name the file by `path`.
+/// If the file cannot be read, is not an ordinary one, has more than 128 MiB, or has a name that ends neither in .toml nor in .obj, and
+/// those of [`parse_scene`] or [`read_obj`](crate::shape::read_obj). Messages name the file by `path`.
 pub fn read_scene(path: &Path, overrides: &[&str]) -> Result<LoadedScene, SceneFileError> {
     read_scene_for(InstructionSet::fastest(), path, overrides)
 }
@@ -100,8 +104,14 @@ pub fn read_scene_for(
     overrides: &[&str],
 ) -> Result<LoadedScene, SceneFileError> {
     let start = Stopwatch::start();
-    let text = read_text(path)?;
-    let mut loaded = parse_for(instruction_set, path, &text, overrides)?;
+    let mut loaded = if model::is_model(path) {
+        let source = Source::of_model(path, model::tree(path), overrides);
+        let mut document = source.parse()?;
+        let mesh = prepare::mesh(&source, path, &mut document)?;
+        finish(instruction_set, &source, document, mesh)?
+    } else {
+        parse_for(instruction_set, path, &text::of_scene(path)?, overrides)?
+    };
     loaded.report.seconds = start.seconds() - loaded.scene.build_seconds();
     Ok(loaded)
 }
@@ -109,8 +119,12 @@ pub fn read_scene_for(
 /// Reads only sampler and integrator of the scene file at `path` with `overrides`. Meshes are not loaded.
 ///
 /// # Errors
-/// Those of [`read_scene`], except for unknown materials and invalid meshes.
+/// Those of [`read_scene`], except for unknown materials and invalid meshes; of a model only those about sampler and integrator.
 pub fn read_settings(path: &Path, overrides: &[&str]) -> Result<RenderSettings, SceneFileError> {
+    if model::is_model(path) {
+        let source = Source::of_model(path, model::tree(path), overrides);
+        return source.place(assemble::settings(&source.parse()?));
+    }
     Ok(read_with(path, overrides, assemble::describe)?.settings)
 }
 
@@ -131,22 +145,9 @@ fn read_with<T>(
     overrides: &[&str],
     read: impl FnOnce(&Document) -> Result<T, Fault>,
 ) -> Result<T, SceneFileError> {
-    let text = read_text(path)?;
+    let text = text::of_file(path)?;
     let source = Source::new(path, &text, overrides);
     source.place(read(&source.parse()?))
-}
-
-/// Maximum size of a file, in MiB: for scenes of more than three million materials.
-const MOST: u64 = 128;
-
-fn read_text(path: &Path) -> Result<String, SceneFileError> {
-    let unreadable = |source| SceneFileError::Unreadable { path: path.to_owned(), source };
-    String::from_utf8(file::read(path, MOST).map_err(unreadable)?).map_err(|error| {
-        let offset = error.utf8_error().valid_up_to();
-        let place = document::file_place(path, error.as_bytes(), offset);
-        let problem = TextProblem::Toml("the text is not UTF-8".into());
-        SceneFileError::Wrong { place, problem: Fault::new(Mark::default(), problem).problem }
-    })
 }
 
 /// Builds a scene from the text of a scene file and the meshes it refers to.
@@ -195,11 +196,31 @@ fn parse_for(
     let start = Stopwatch::start();
     let source = Source::new(path, text, overrides);
     let document = source.parse()?;
-    let description = source.place(assemble::describe(&document))?;
+    let mut loaded = finish(instruction_set, &source, document, None)?;
+    loaded.report.seconds = start.seconds() - loaded.scene.build_seconds();
+    Ok(loaded)
+}
+
+/// Builds the scene of a document. `mesh` is that of a model.
+fn finish(
+    instruction_set: InstructionSet,
+    source: &Source,
+    document: Document,
+    mesh: Option<ObjMesh>,
+) -> Result<LoadedScene, SceneFileError> {
+    let mut description = source.place(assemble::describe(&document))?;
+    if let Some(mesh) = mesh {
+        description = description.with_mesh(model::NAME, mesh);
+    }
     let (materials, textures) = (description.materials.clone(), description.textures.clone());
-    let built = source.place(assemble::build(description, &document, instruction_set))?;
-    let Built { scene, view, settings, reports, faces } = built;
-    let seconds = start.seconds() - scene.build_seconds();
-    let report = LoadReport { seconds, meshes: reports, notes: faces.notes.clone() };
+    let Built { scene, view, settings, reports: meshes, mut faces } =
+        source.place(assemble::build(description, &document, instruction_set))?;
+    let report = LoadReport {
+        seconds: 0.0,
+        meshes,
+        notes: std::mem::take(&mut faces.notes),
+        face_materials: std::mem::take(&mut faces.counts),
+        images: textures.images().into_iter().map(TextureImage::of).collect(),
+    };
     Ok(LoadedScene { scene, view, settings, report, materials, textures, faces, document })
 }

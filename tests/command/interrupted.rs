@@ -20,18 +20,18 @@ impl Moments {
     }
 }
 
-fn start(folder: &Folder, arguments: &str) -> Child {
+pub fn start(folder: &Folder, arguments: &str) -> Child {
     let mut command = folder.command(arguments.split_whitespace());
     command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
-fn signal(child: &Child, name: &str) {
+pub fn signal(child: &Child, name: &str) {
     let id = child.id().to_string();
     assert!(std::process::Command::new("kill").args([name, &id]).status().unwrap().success());
 }
 
 /// Waits until a file is there; fails after a minute.
-fn wait_for(folder: &Folder, name: &str) {
+pub fn wait_for(folder: &Folder, name: &str) {
     let start = Instant::now();
     while !folder.0.join(name).exists() {
         assert!(start.elapsed() < Duration::from_secs(60), "no {name} after a minute");
@@ -39,7 +39,7 @@ fn wait_for(folder: &Folder, name: &str) {
     }
 }
 
-fn end(child: Child) -> (ExitStatus, String) {
+pub fn end(child: Child) -> (ExitStatus, String) {
     let output = child.wait_with_output().unwrap();
     (output.status, String::from_utf8(output.stderr).unwrap())
 }

@@ -14,6 +14,7 @@ mod folders;
 mod images;
 mod interrupted;
 mod merge;
+mod model;
 mod outputs;
 mod terminal;
 

@@ -1,24 +1,27 @@
-//! `lobe info`: the contents of a scene file.
+//! `lobe info`: the contents of a scene file or a model.
 
 use std::error::Error;
+use std::path::Path;
 
 use clap::Args;
 use lobe::TriangleMesh;
-use lobe::params::Choice;
+use lobe::params::{Choice, Shown};
 use lobe::render::{RenderSettings, SamplerSettings};
 use lobe::scene::View;
-use lobe::scene_file::LoadedScene;
+use lobe::scene_file::{FaceMaterial, LoadReport, LoadedScene, TextureImage};
 
 use crate::scene::{IsaArgument, SceneArguments};
-use crate::summary::Summary;
+use crate::summary::{Summary, print};
 
 const EXAMPLES: &str = "\
 Examples:
   lobe info chapter8.toml
   lobe info chapter8.toml --set shape.dragon.scale=2    bounds at twice the size
+  lobe info model.obj                                   materials, textures, and what of them is not understood
+  lobe info model.obj --scene > model.toml              the scene that lobe render makes for it, to change it
   lobe info chapter8.toml | awk '$1 == \"triangles\" { print $2 }'";
 
-/// Shows the contents of a scene file: settings, triangles, bounds, tree, memory
+/// Shows the contents of a scene file or a model: settings, triangles, materials, textures, bounds, tree, memory
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -27,11 +30,18 @@ pub struct Arguments {
 
     #[command(flatten)]
     isa: IsaArgument,
+
+    /// Prints the scene that is made for a model, with all overrides, as a scene file for this directory
+    #[arg(long = "scene")]
+    as_scene: bool,
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
-    let LoadedScene { scene, view, settings, report, .. } =
-        arguments.scene.load_for(&arguments.isa)?;
+    let loaded = arguments.scene.load_for(&arguments.isa)?;
+    if arguments.as_scene {
+        return scene_text(&loaded, &arguments.scene.path);
+    }
+    let LoadedScene { scene, view, settings, report, .. } = loaded;
     let mut summary = Summary::default();
     summary.add("scene", arguments.scene.path.display());
     add_view(&mut summary, &view);
@@ -47,7 +57,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         }
         summary.add("shape", line);
     }
+    add_materials(&mut summary, &report);
     summary.add_warnings(&scene, &report);
+    summary.add_notes(&report, usize::MAX);
     summary.add_meshes(&scene);
     let accel = scene.accel();
     if !accel.bounds().is_empty() {
@@ -58,11 +70,38 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let meshes: usize = scene.shapes().map(|(_, mesh)| memory(mesh)).sum();
     summary.add("tree-memory", format!("{:.2} MiB", accel.memory() as f64 / MIB));
     summary.add("mesh-memory", format!("{:.2} MiB", meshes as f64 / MIB));
+    let images: usize = report.images.iter().map(|image| image.bytes).sum();
+    if images > 0 {
+        summary.add("texture-memory", format!("{:.2} MiB", images as f64 / MIB));
+    }
     summary.add("isa", accel.instruction_set());
     summary.add("load", format!("{:.3} s", report.seconds));
     summary.add("build", format!("{:.3} s", scene.build_seconds()));
     summary.print()?;
     Ok(())
+}
+
+/// Prints the scene of a model.
+fn scene_text(loaded: &LoadedScene, path: &Path) -> Result<(), Box<dyn Error>> {
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+        let shown = Shown::path(path);
+        return Err(format!("`{shown}` is a scene file already: --scene is for models").into());
+    }
+    Ok(print(&loaded.to_toml())?)
+}
+
+/// A line for each material that faces name, and each image.
+fn add_materials(summary: &mut Summary, report: &LoadReport) {
+    for FaceMaterial { name, triangle_count, is_emitting, .. } in &report.face_materials {
+        let light = if *is_emitting { ", emitting" } else { "" };
+        summary.add("material", format!("{name}: {triangle_count} triangles{light}"));
+    }
+    let here = std::env::current_dir().unwrap_or_default();
+    for TextureImage { file, size, bytes, .. } in &report.images {
+        let file = file.strip_prefix(&here).unwrap_or(file);
+        let (file, mib) = (file.display(), *bytes as f64 / MIB);
+        summary.add("texture", format!("{file}: {}x{} pixels, {mib:.2} MiB", size.x, size.y));
+    }
 }
 
 const MIB: f64 = (1 << 20) as f64;

@@ -31,6 +31,7 @@ const EXAMPLES: &str = "\
 Examples:
   lobe render assets/chapter8.toml                      writes chapter8.png and chapter8.exr
   lobe render scene.toml -o a.png --spp 256 --set camera.fov=40
+  lobe render model.obj                                 a model alone: its MTL file, light, a camera that sees all
   lobe info scene.toml                                  triangles, bounds, tree, memory
   lobe merge scene-*-of-8.exr -o scene.exr               the parts of lobe render --shard, added up
   lobe compare a.exr reference.exr                      errors, FLIP, and whether noise explains them

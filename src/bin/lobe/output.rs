@@ -24,7 +24,7 @@ pub enum Format {
 }
 
 impl Output {
-    /// The files given on the command line, or for a scene NAME.toml the file name NAME with each of these endings. Checks
+    /// The files given on the command line, or for a scene NAME.toml or NAME.obj the file name NAME with each of these endings. Checks
     /// that all of them can be written, before anything is rendered.
     pub fn all(
         named: &[PathBuf],

@@ -8,7 +8,7 @@ use lobe::scene_file::{LoadedScene, SceneFileError, read_scene, read_scene_for};
 
 #[derive(Args)]
 pub struct SceneArguments {
-    /// The scene file
+    /// A scene file, .toml, or a model, .obj
     #[arg(value_name = "SCENE")]
     pub path: PathBuf,
 

@@ -70,9 +70,6 @@ impl Summary {
             warn(odd.short_faces, "faces with fewer than 3 corners");
             warn(odd.unknown_lines, "lines with an unknown keyword");
         }
-        for note in &report.notes {
-            self.add("warning", note.clone());
-        }
         if scene.shapes().next().is_none() {
             self.add("warning", "the scene has no shapes");
         }
@@ -81,6 +78,15 @@ impl Summary {
         let is_dark = scene.lights().iter().all(|l| l.power(&bounds) == Some(Spectrum::BLACK));
         if is_dark {
             self.add("warning", "the scene has no light: the picture will be black");
+        }
+    }
+
+    /// Adds a line `warning` for each thing that was left out of MTL files; of many, the first `most`.
+    pub fn add_notes(&mut self, report: &LoadReport, most: usize) {
+        report.notes.iter().take(most).for_each(|note| self.add("warning", note));
+        let left = report.notes.len().saturating_sub(most);
+        if left > 0 {
+            self.add("warning", format!("and {left} more, which lobe info shows"));
         }
     }
 

@@ -162,6 +162,8 @@ fn set(material: &mut MtlMaterial, key: &str, rest: &str) -> Set {
             }
             _ => Set::Unfit("a whole number from 0 to 10"),
         },
+        // Ambient light is an approximation of what a renderer of light finds by itself.
+        "ka" | "map_ka" => Set::Done,
         "map_kd" => map(&mut material.map_kd),
         "map_ke" => map(&mut material.map_ke),
         "map_d" => map(&mut material.map_d),

@@ -44,6 +44,11 @@ edges = [[0.0, 0.0, 10.0], [10.0, 0.0, 0.0]]
   right-handed program, `handedness = \"right\"` in `[camera]` renders it without mirroring. The outer side of a surface is
   where the cross product of two edges points, from the first corner to the second and to the third. Coordinates go up
   to 1e12 scene units.
+- **Models.** An OBJ file can stand in place of a scene file: `lobe render model.obj`. A scene is made for it, which
+  `lobe info model.obj --scene` prints: materials from its MTL file, a grey sky, a key light, and a camera that sees all
+  of it from the front, right and above. Its world is right-handed, with y up and the front towards +z. The shape is
+  `model`, as in `--set shape.model.scale=2`. The camera follows the shape's transform and the film's resolution, unless
+  an override places it.
 - **Transforms.** A shape is first scaled, then rotated, then translated, whatever the order of the keys.
 - **Units.** Lengths are in scene units, angles in degrees, colours are linear RGB (Rec. 709). Radiance is in
   W / (m² sr) if a scene unit is a metre. All numbers have to be finite.

@@ -12,11 +12,17 @@ use crate::scene::{IsaArgument, SceneArguments};
 const EXAMPLES: &str = r#"Examples:
   lobe render chapter8.toml                             writes chapter8.png and chapter8.exr here
   lobe render chapter8.toml -o a.png --spp 256          writes only a.png, with less noise
+  lobe render model.obj                                 an OBJ file with its MTL file: writes model.png and model.exr
+  lobe render model.obj --set shape.model.rotate=[1,0,0,-90]    if z is up in it
   lobe render dragon-sky.toml --time 10                 the best picture in ten seconds
   lobe render dragon-sky.toml --spp 65536 --resume      goes on where it was ended or killed
   lobe render dragon-sky.toml --shard 3/8               one of eight parts, for lobe merge
   lobe render chapter8.toml --set film.resolution=[100,100] --set camera.fov=40
   lobe render chapter8.toml --set 'shape.dragon.obj="other.obj"'    strings need their quotes
+
+A model, .obj, is rendered under a grey sky and a key light, by a camera that sees all of it from the front, right and above.
+Its world is right-handed with y up; scene files have PBRT's left-handed camera unless they say otherwise. `lobe info
+model.obj --scene` prints the whole scene, to be changed.
 
 A PNG is for viewing. An EXR contains linear radiance, its variance, the number of samples, and
 normal, depth and albedo of the first hits; only with one is the error of the picture printed.
@@ -30,7 +36,7 @@ any number of threads, and gives the same picture as if it had never stopped. Th
 removed when all samples are taken or --time is over. A part (--shard) that is complete
 already is left as it is."#;
 
-/// Renders a scene file to PNG and EXR
+/// Renders a scene file or a model to PNG and EXR
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {

@@ -1,4 +1,4 @@
-//! `lobe render`: renders a scene file to PNG and EXR.
+//! `lobe render`: renders a scene file or a model to PNG and EXR.
 
 mod arguments;
 mod job;

@@ -7,6 +7,9 @@ use lobe::scene_file::LoadedScene;
 
 use crate::summary::Summary;
 
+/// How many of the things that were left out of MTL files are listed.
+const MOST_NOTES: usize = 20;
+
 /// The summary of a render of the scene in this file.
 pub fn of(loaded: &LoadedScene, rendered: &Rendered, file: &Path) -> Summary {
     let LoadedScene { scene, view, report, .. } = loaded;
@@ -26,6 +29,7 @@ pub fn of(loaded: &LoadedScene, rendered: &Rendered, file: &Path) -> Summary {
     summary.add_error(&rendered.picture);
     add_faults(&mut summary, rendered);
     summary.add_warnings(scene, report);
+    summary.add_notes(report, MOST_NOTES);
     summary
 }
 
