@@ -32,12 +32,23 @@ impl Facets {
     /// The lobe at a point, and a surface without lobes, in a frame that fits.
     #[inline]
     pub fn at<'a>(&'a self, si: &SurfaceInteraction) -> (Bsdf<'a>, MicrofacetReflection<'a>) {
+        self.of(si, self.fresnel, self.mean)
+    }
+
+    /// The same with other Fresnel equations, and their mean.
+    #[inline]
+    pub fn of<'a>(
+        &'a self,
+        si: &SurfaceInteraction,
+        fresnel: Fresnel,
+        mean: Spectrum,
+    ) -> (Bsdf<'a>, MicrofacetReflection<'a>) {
         match &self.rough {
             Some((roughness, losses)) => {
-                let lobe = MicrofacetReflection::new(roughness.at(si), self.fresnel);
-                (roughness.bsdf(si), lobe.and_multiple(losses, self.mean))
+                let lobe = MicrofacetReflection::new(roughness.at(si), fresnel);
+                (roughness.bsdf(si), lobe.and_multiple(losses, mean))
             }
-            None => (Bsdf::isotropic(si), MicrofacetReflection::new([0.0; 2], self.fresnel)),
+            None => (Bsdf::isotropic(si), MicrofacetReflection::new([0.0; 2], fresnel)),
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! | what MTL says | material |
 //! |---|---|
-//! | `Pm` above 1/2 | metal that reflects `Kd` at the normal, white without it |
+//! | `Pm` above 1/2 | metal that reflects `Kd` at the normal, white without it; by `map_Pm`, between that and what the other rows say |
 //! | `illum` 4, 6, 7 or 9 | glass of index `Ni`; refracted light is scaled by `Tf` |
 //! | `illum` 3 or 5 with black `Kd`, and `Ks` | metal that reflects `Ks` |
 //! | `Ks` above 0, with `illum` 2, 3, 5, 8 or none | plastic: a coat of index `Ni` over `Kd` |
@@ -11,7 +11,8 @@
 //! The first row that fits holds. An index that is missing, at most 1 or above 10 is 1.5, and a missing `Kd` is 0.5. Roughness is `Pr`, perceptual, or α = √(2 / (Ns + 2)) from Phong's exponent `Ns` (Walter et al. 2007, section 5.2), else 0.
 //! Where the opacity, `d` or 1 - `Tr`, is below 1 and there is no glass, the rest of the material is a thin pane, through which light goes straight:
 //! of index `Ni` if there is `Ks`, else one that reflects nothing; what it lets through is scaled by `Tf`.
-//! `map_Kd` is multiplied by `Kd`, unless that is black.
+//! `map_Kd` is multiplied by `Kd`, unless that is black; `map_Pr` and `map_Pm` by `Pr` and `Pm`, unless these are 0. `map_Bump` times `-bm` is a
+//! displacement in scene units, `norm` are normals, and rays pass where `map_d` is 0.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -19,8 +20,8 @@ use std::sync::Arc;
 use glam::Vec2;
 
 use super::{
-    GlassMaterial, Material, MatteMaterial, MetalMaterial, MixMaterial, PlasticMaterial, Roughness,
-    ThinGlassMaterial,
+    DetailedMaterial, GlassMaterial, Material, MatteMaterial, MetalMaterial, MixMaterial,
+    PlasticMaterial, Roughness, ThinGlassMaterial,
 };
 use crate::file;
 use crate::image::ReadError;
@@ -28,7 +29,7 @@ use crate::interaction::SurfaceInteraction;
 use crate::shape::{MtlMap, MtlMaterial};
 use crate::spectrum::Spectrum;
 use crate::texture::{
-    Curve, ImageTexture, Mapping, ProductTexture, Texture, TextureHandle, Textures, Wrap,
+    Channel, Curve, ImageTexture, Mapping, ProductTexture, Texture, TextureHandle, Textures, Wrap,
 };
 
 /// Makes materials from those of an MTL file.
@@ -47,28 +48,44 @@ impl MtlMaterials<'_> {
     pub fn make(&self, mtl: &MtlMaterial) -> (Arc<dyn Material>, Vec<Note>) {
         let mut notes = Vec::new();
         let has_glass = matches!(mtl.illum, Some(4 | 6 | 7 | 9));
-        let is_metal = mtl.pm.is_some_and(|pm| pm > 0.5);
-        // Neither glass nor metal has a place for it.
-        let map = mtl.map_kd.as_ref().filter(|_| !has_glass && !is_metal);
-        let kd = self.color(mtl.kd, map, &mut notes);
         let ks = Spectrum::from(mtl.ks.unwrap_or_default());
         let eta = mtl.ni.filter(|ni| *ni > 1.0 && *ni <= 10.0).unwrap_or(1.5);
         let filter = Spectrum::from(mtl.tf.unwrap_or([1.0; 3]));
+        // Without a map of it, metal is all or nothing.
+        let metal = match self.number(mtl.pm, mtl.map_pm.as_ref(), &mut notes) {
+            Some(TextureHandle::Constant(pm)) => (pm > 0.5).then_some(TextureHandle::Constant(1.0)),
+            map => map,
+        };
+        let is_metal = metal.as_ref().is_some_and(|metal| metal.constant().is_some());
+        if mtl.map_kd.is_some() && has_glass && !is_metal {
+            notes.push("map_Kd of glass is not used".into());
+        }
+        // Glass has no place for it.
+        let map = mtl.map_kd.as_ref().filter(|_| !has_glass || is_metal);
+        let without = Spectrum::splat(if is_metal { 1.0 } else { 0.5 });
+        let kd = self.color(mtl.kd, without, map, &mut notes);
+        let rough = self.roughness(mtl, &mut notes);
+        let metallic = |kd: &TextureHandle<Spectrum>| {
+            MetalMaterial::reflecting(kd.clone()).with_roughness(rough.clone())
+        };
         let material: Arc<dyn Material> = match mtl.illum {
-            _ if is_metal => {
-                let color = mtl.kd.map_or(Spectrum::WHITE, Spectrum::from);
-                Arc::new(MetalMaterial::reflecting(color).with_roughness(roughness(mtl)))
-            }
+            _ if is_metal => Arc::new(metallic(&kd)),
             _ if has_glass => {
-                Arc::new(GlassMaterial::new(eta).with_kt(filter).with_roughness(roughness(mtl)))
+                Arc::new(GlassMaterial::new(eta).with_kt(filter).with_roughness(rough.clone()))
             }
             Some(3 | 5) if kd.constant() == Some(Spectrum::BLACK) && !ks.is_black() => {
-                Arc::new(MetalMaterial::reflecting(ks).with_roughness(roughness(mtl)))
+                Arc::new(metallic(&ks.into_handle()))
             }
-            None | Some(2 | 3 | 5 | 8) if !ks.is_black() => {
-                Arc::new(PlasticMaterial::new(kd, eta).with_roughness(roughness(mtl)))
+            None | Some(2 | 3 | 5 | 8) if !ks.is_black() || metal.is_some() => {
+                Arc::new(PlasticMaterial::new(kd.clone(), eta).with_roughness(rough.clone()))
             }
-            _ => Arc::new(MatteMaterial::new(kd)),
+            _ => Arc::new(MatteMaterial::new(kd.clone())),
+        };
+        let material = match metal {
+            Some(metal) if metal.constant().is_none() && !has_glass => {
+                Arc::new(MixMaterial::new(material, metallic(&kd), metal))
+            }
+            _ => material,
         };
         let material = match opacity(mtl) {
             // Glass lets light through by itself.
@@ -79,37 +96,111 @@ impl MtlMaterials<'_> {
             }
             _ => material,
         };
-        let unused = [
-            ("map_Kd", mtl.map_kd.is_some() && map.is_none()),
-            ("map_d", mtl.map_d.is_some()),
-            ("map_Pr", mtl.map_pr.is_some()),
-            ("map_Pm", mtl.map_pm.is_some()),
-            ("map_Bump", mtl.map_bump.is_some()),
-            ("norm", mtl.norm.is_some()),
-            ("map_Ke", mtl.map_ke.is_some()),
-        ];
-        let unused = unused.into_iter().filter(|(_, is_there)| *is_there);
-        notes.extend(unused.map(|(key, _)| format!("{key} is not used yet")));
-        (material, notes)
+        (self.detailed(material, mtl, &mut notes), notes)
+    }
+
+    /// The material with bumps, normals and holes.
+    fn detailed(
+        &self,
+        material: Arc<dyn Material>,
+        mtl: &MtlMaterial,
+        notes: &mut Vec<Note>,
+    ) -> Arc<dyn Material> {
+        let normals = mtl.norm.as_ref().and_then(|map| self.found(map, Curve::Linear, notes));
+        let bump = mtl.map_bump.as_ref().and_then(|map| self.numbers(map, notes));
+        let opacity = mtl.map_d.as_ref().and_then(|map| self.numbers(map, notes));
+        if normals.is_none() && bump.is_none() && opacity.is_none() {
+            return material;
+        }
+        let mut detailed = DetailedMaterial::new(material);
+        if let Some(normals) = normals {
+            detailed = detailed.with_normals(normals);
+        }
+        if let (Some(heights), Some(map)) = (bump, &mtl.map_bump) {
+            detailed = detailed.with_bump(ProductTexture::new(heights, map.bump));
+        }
+        if let Some(opacity) = opacity {
+            detailed = detailed.with_opacity(opacity);
+        }
+        Arc::new(detailed)
+    }
+
+    /// The emitted radiance: `Ke` times the mean of `map_Ke`, and what was left out of it.
+    pub fn emission(&self, mtl: &MtlMaterial) -> (Spectrum, Option<Note>) {
+        let Some(map) = &mtl.map_ke else {
+            return (mtl.ke.unwrap_or_default().into(), None);
+        };
+        let ke = Spectrum::from(mtl.ke.unwrap_or([1.0; 3]));
+        let mut notes = Vec::new();
+        match self.found(map, Curve::Srgb, &mut notes) {
+            Some(image) => {
+                let note = "lamps have one colour: map_Ke is its mean".to_owned();
+                (ke * image.mean_color(), Some(note))
+            }
+            None => (mtl.ke.unwrap_or_default().into(), notes.pop()),
+        }
+    }
+
+    fn roughness(&self, mtl: &MtlMaterial, notes: &mut Vec<Note>) -> Roughness {
+        match (self.number(mtl.pr, mtl.map_pr.as_ref(), notes), mtl.ns) {
+            (Some(pr), _) => Roughness::perceptual(pr),
+            (None, Some(ns)) => Roughness::alpha((2.0 / (ns.max(0.0) + 2.0)).sqrt()),
+            (None, None) => Roughness::smooth(),
+        }
+    }
+
+    /// A number, an image, or their product.
+    fn number(
+        &self,
+        number: Option<f32>,
+        map: Option<&MtlMap>,
+        notes: &mut Vec<Note>,
+    ) -> Option<TextureHandle<f32>> {
+        let image = map.and_then(|map| self.numbers(map, notes));
+        match (image, number.filter(|number| *number != 0.0 && *number != 1.0)) {
+            (Some(image), Some(number)) => Some(ProductTexture::new(image, number).into_handle()),
+            (Some(image), None) => Some(image),
+            (None, _) => number.map(|number| number.clamp(0.0, 1.0).into_handle()),
+        }
+    }
+
+    /// An image of numbers. Without a channel it is the luminance.
+    fn numbers(&self, map: &MtlMap, notes: &mut Vec<Note>) -> Option<TextureHandle<f32>> {
+        let channel = match map.channel {
+            Some('r') => Channel::Red,
+            Some('g') => Channel::Green,
+            Some('b') => Channel::Blue,
+            _ => Channel::Luminance,
+        };
+        let numbers = self.found(map, Curve::Linear, notes)?.channel(channel);
+        let [base, gain] = map.base_gain;
+        Some(if [base, gain] == [0.0, 1.0] {
+            numbers.into_handle()
+        } else {
+            (move |si: &SurfaceInteraction| base + numbers.evaluate(si) * gain).into_handle()
+        })
+    }
+
+    /// The image, or a note.
+    fn found(&self, map: &MtlMap, curve: Curve, notes: &mut Vec<Note>) -> Option<ImageTexture> {
+        self.image(map, curve).map_err(|error| notes.push(error.to_string())).ok()
     }
 
     /// A colour, an image, or their product.
     fn color(
         &self,
         color: Option<[f32; 3]>,
+        without: Spectrum,
         map: Option<&MtlMap>,
         notes: &mut Vec<Note>,
     ) -> TextureHandle<Spectrum> {
         let given = color.map(Spectrum::from);
-        let color = given.unwrap_or(Spectrum::splat(0.5));
+        let color = given.unwrap_or(without);
         let Some(map) = map else { return color.into_handle() };
-        let image = match self.image(map, Curve::Srgb) {
-            Err(error) => {
-                notes.push(error.to_string());
-                return color.into_handle();
-            }
-            Ok(image) if map.base_gain == [0.0, 1.0] => image.into_handle(),
-            Ok(image) => {
+        let image = match self.found(map, Curve::Srgb, notes) {
+            None => return color.into_handle(),
+            Some(image) if map.base_gain == [0.0, 1.0] => image.into_handle(),
+            Some(image) => {
                 let [base, gain] = map.base_gain;
                 let changed = move |si: &SurfaceInteraction| {
                     Spectrum::splat(base) + image.evaluate(si) * gain
@@ -139,12 +230,4 @@ impl MtlMaterials<'_> {
 /// `d`, or 1 - `Tr`.
 fn opacity(mtl: &MtlMaterial) -> f32 {
     mtl.d.or(mtl.tr.map(|tr| 1.0 - tr)).unwrap_or(1.0).clamp(0.0, 1.0)
-}
-
-fn roughness(mtl: &MtlMaterial) -> Roughness {
-    match (mtl.pr, mtl.ns) {
-        (Some(pr), _) => Roughness::perceptual(pr.clamp(0.0, 1.0)),
-        (None, Some(ns)) => Roughness::alpha((2.0 / (ns.max(0.0) + 2.0)).sqrt()),
-        (None, None) => Roughness::smooth(),
-    }
 }

@@ -36,6 +36,8 @@ struct Shape {
     /// What is wrong if there is no material, and faces name none either; `None` for an emitter, which may reflect nothing.
     missing: Option<Fault>,
     emission: Option<Emission>,
+    /// Whether faces with a lamp's material emit on both sides.
+    two_sided: bool,
     /// From mesh to world space.
     transform: Affine3A,
 }
@@ -114,12 +116,10 @@ fn sampler(table: Table) -> Result<SamplerSettings, Fault> {
 
 fn shape(table: Table) -> Result<Shape, Fault> {
     sections::SHAPE.read(table, |kind, table| {
-        let emission = match table.get(&sections::EMISSION)? {
-            Some(radiance) => {
-                Some(Emission { radiance, two_sided: table.get(&sections::TWO_SIDED)? })
-            }
-            None => None,
-        };
+        let two_sided = table.get(&sections::TWO_SIDED)?;
+        let emission = table.get(&sections::EMISSION)?;
+        let emission = emission
+            .map(|radiance| Emission { radiance, two_sided: two_sided.unwrap_or_default() });
         let scale = table.get(&sections::SCALE)?.0;
         let rotation = table.get(&sections::ROTATE)?.map_or(Quat::IDENTITY, Quat::from);
         let translation = table.get(&sections::TRANSLATE)?;
@@ -133,6 +133,7 @@ fn shape(table: Table) -> Result<Shape, Fault> {
             material: material.map(|material| (material, mark)),
             missing,
             emission,
+            two_sided: two_sided.unwrap_or(true),
             // Scale, then rotate, then translate.
             transform: Affine3A::from_scale_rotation_translation(scale, rotation, translation),
         })
@@ -221,14 +222,14 @@ pub fn build(
         .fold(builder, |builder, (name, material)| builder.material(name, material));
     let mut reports = Vec::with_capacity(shapes.len());
     let mut faces = FaceMaterials::new(&by_name, &textures);
-    for (name, Shape { load, material, missing, emission, transform }) in shapes {
+    for (name, Shape { load, material, missing, emission, two_sided, transform }) in shapes {
         let ObjMesh { mut mesh, report, materials } = load()?;
         reports.push(report);
         mesh.transform(&transform);
         let names_some = !materials.of_triangles.is_empty() && emission.is_none();
         builder = match (material, missing) {
             (None, _) if names_some => {
-                let (builder, count) = faces.add(builder, &name, &mesh, &materials);
+                let (builder, count) = faces.add(builder, &name, &mesh, &materials, two_sided);
                 // What is odd about the file is said once.
                 reports.resize(reports.len() + count - 1, ObjReport::default());
                 builder

@@ -54,13 +54,15 @@ impl<'a> FaceMaterials<'a> {
         Self { known, textures, taken, found: Found::default() }
     }
 
-    /// Adds a shape whose triangles have the materials that they name, and one for each material that emits. Returns how many there are.
+    /// Adds a shape whose triangles have the materials that they name, and one for each material that emits, on one side or on both. Returns
+    /// how many there are.
     pub fn add(
         &mut self,
         mut builder: SceneBuilder,
         shape: &str,
         mesh: &TriangleMesh,
         faces: &ObjMaterials,
+        two_sided: bool,
     ) -> (SceneBuilder, usize) {
         let library = self.read(&faces.libraries);
         let indices = faces.of_triangles.iter().flat_map(|index| index.to_le_bytes());
@@ -96,7 +98,7 @@ impl<'a> FaceMaterials<'a> {
             match emission {
                 Some(radiance) => {
                     let name = format!("{shape}/{}", name.unwrap_or_default());
-                    let emission = Emission { radiance, two_sided: true };
+                    let emission = Emission { radiance, two_sided };
                     glowing.push((name, mesh.part(triangles), key, emission));
                 }
                 None => {
@@ -125,8 +127,7 @@ impl<'a> FaceMaterials<'a> {
         library: &Library,
     ) -> Made {
         let mtl = library.get(name);
-        let emission = mtl.and_then(|(_, mtl)| mtl.ke).map(Spectrum::from);
-        let emission = emission.filter(|ke| !ke.is_black());
+        let emission = mtl.and_then(|(index, mtl)| self.emission(&faces.libraries[*index], mtl));
         // The line may change, and with floats a text is the simplest that all values are part of.
         let values = mtl.map(|(_, mtl)| format!("{:?}", MtlMaterial { line: 0, ..mtl.clone() }));
         let sum = crc32fast::hash(values.unwrap_or_default().as_bytes());
@@ -148,11 +149,29 @@ impl<'a> FaceMaterials<'a> {
             return Made { key: self.add_material(builder, shape, name, grey()), emission: None };
         };
         let file = &faces.libraries[*index];
-        let folder = file.parent().unwrap_or(Path::new(""));
-        let (material, notes) = MtlMaterials { folder, textures: self.textures }.make(mtl);
-        let place = format!("{}:{}: material {}", Shown::path(file), mtl.line, quoted(name));
-        self.found.notes.extend(notes.into_iter().map(|note| format!("{place}: {note}")));
+        let (material, notes) = self.materials_of(file).make(mtl);
+        notes.into_iter().for_each(|note| self.note(file, mtl, &note));
         Made { key: self.add_material(builder, shape, name, material), emission }
+    }
+
+    /// What faces of a material emit, if they do.
+    fn emission(&mut self, file: &Path, mtl: &MtlMaterial) -> Option<Spectrum> {
+        let (emission, note) = self.materials_of(file).emission(mtl);
+        note.iter().for_each(|note| self.note(file, mtl, note));
+        (!emission.is_black()).then_some(emission)
+    }
+
+    fn materials_of<'f>(&self, file: &'f Path) -> MtlMaterials<'f>
+    where
+        'a: 'f,
+    {
+        let folder = file.parent().unwrap_or(Path::new(""));
+        MtlMaterials { folder, textures: self.textures }
+    }
+
+    fn note(&mut self, file: &Path, mtl: &MtlMaterial, note: &str) {
+        let place = format!("{}:{}", Shown::path(file), mtl.line);
+        self.found.notes.push(format!("{place}: material {}: {note}", quoted(&mtl.name)));
     }
 
     /// Adds a material to the builder under a name that no other has.

@@ -120,8 +120,10 @@ pub const SHAPE_MATERIAL: Key<Option<String>> = Key::optional(
 );
 pub const EMISSION: Key<Option<Spectrum>> =
     Key::optional("emission", "emitted radiance, in W / (m² sr)").at_least(0.0);
-pub const TWO_SIDED: Key<bool> =
-    Key::new("two_sided", "whether both sides emit, or only the outer one").default(false);
+pub const TWO_SIDED: Key<Option<bool>> = Key::optional(
+    "two_sided",
+    "whether both sides emit, or only the outer one; if left out, lamps of MTL files emit on both, and others on one",
+);
 pub const SCALE: Key<Scale> =
     Key::new("scale", "one factor, or factors along x, y and z").default(Scale(Vec3::ONE));
 pub const ROTATE: Key<Option<Rotation>> =

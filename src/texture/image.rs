@@ -111,6 +111,11 @@ impl ImageTexture {
         self.within(&self.texels, st)
     }
 
+    /// The mean of all of the image.
+    pub(crate) fn mean_color(&self) -> Spectrum {
+        self.texels.smaller().last().unwrap_or(&self.texels).at(0, 0)
+    }
+
     /// The same in the image or in a smaller one.
     #[inline]
     fn within(&self, texels: &Texels, st: Vec2) -> Spectrum {

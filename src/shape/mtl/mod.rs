@@ -171,8 +171,6 @@ fn set(material: &mut MtlMaterial, key: &str, rest: &str) -> Set {
         "map_pm" => map(&mut material.map_pm),
         "map_bump" | "bump" => map(&mut material.map_bump),
         "norm" | "map_norm" | "map_kn" => map(&mut material.norm),
-        // Light from nowhere, which path tracing has no use for.
-        "ka" | "map_ka" => Set::Done,
         _ => Set::Unknown,
     }
 }
