@@ -64,9 +64,14 @@ fn boxes_fill_the_image() {
         let framed = settings.framing(points.iter().copied(), resolution).unwrap();
         let extent = extent(&framed, resolution, &points);
         assert!(extent < FILLED + 1e-3, "trial {trial}: {extent} with {framed:?}");
-        // Rounding of the camera's place is allowed for, which is much for what is thin and seen from its end.
+        // Rounding of the camera's place is allowed for, which is much for what is thin and seen from its end, and in images so long
+        // that the camera all but touches a corner.
         let is_thick = half.min_element() > 0.05 * (center.abs() + half).max_element();
-        assert!(extent > FILLED - 1e-3 || !is_thick, "trial {trial}: {extent} with {framed:?}");
+        let is_long = resolution.max_element() > 4 * resolution.min_element();
+        assert!(
+            extent > FILLED - 1e-3 || !is_thick || is_long,
+            "trial {trial}: {extent} with {framed:?}"
+        );
         // The view has not turned.
         let [before, after] = [settings, framed].map(|s| (s.look_at - s.eye).normalize());
         assert!(before.dot(after) > 1.0 - 1e-5, "trial {trial}: {before} became {after}");
