@@ -120,7 +120,6 @@ fn notes_name_file_and_line() {
         [
             "m.mtl:8: the key `shine` is not known",
             "m.mtl:5: material \"lamp\": cannot read `no.png`: there is no such file",
-            "m.mtl:5: material \"lamp\": d is not used yet",
         ]
     );
 }
