@@ -227,7 +227,7 @@ mod tests {
         let light = EnvironmentLight::new(&image, &EnvironmentSettings::default()).unwrap();
         let (origin, mut wi) = (Rows::splat(0.0), Rows::splat(0.0));
         for i in 0..ROW {
-            let turn: [f32; 3] = from_fn(|axis| (i as f32 * [0.71, 1.3, 2.9][axis]).sin());
+            let turn: [f32; 3] = from_fn(|axis| ((i + 1) as f32 * [0.71, 1.3, 2.9][axis]).sin());
             wi.set(i, Vec3::from(turn).normalize().to_array());
         }
         for (len, needs_pdf) in [(ROW, true), (ROW, false), (3, true), (0, true)] {
