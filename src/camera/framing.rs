@@ -10,9 +10,13 @@ use crate::geometry::float::MAX_COORDINATE;
 /// Share of the image's width and height that the points fill at most.
 const FILLED: f64 = 0.9;
 
+/// Share of the points' bounding box, of its diagonal, that they are away from the camera along the view at least. Otherwise it would
+/// stand at the tip of whatever is pointed and fits into the field of view from there.
+const NEAREST: f64 = 0.1;
+
 impl PerspectiveSettings {
     /// The camera that looks in the same direction and stands as near to `points` as it can with all of them in an image of
-    /// this resolution, a twentieth of its width and height away from the edges. `look_at` becomes the point in the middle of the image
+    /// this resolution, a twentieth of its width and height away from the edges, and none nearer than a tenth of the diagonal of their bounding box. `look_at` becomes the point in the middle of the image
     /// that is as far away as the middle of the points' bounding box.
     ///
     /// Points beyond [`MAX_COORDINATE`] are left out; without any other the camera stays where it is.
@@ -57,18 +61,20 @@ impl PerspectiveSettings {
         let half = (f64::from(self.fov).to_radians() / 2.0).tan() * FILLED;
         let tangents = resolution.as_dvec2() / f64::from(resolution.min_element()) * half;
         // x - t z ≤ eye.x - t eye.z keeps a point left of the right edge, and -x - t z ≤ -eye.x - t eye.z right of the left one.
-        let mut most = [DVec2::NEG_INFINITY; 2];
+        let (mut most, mut nearest) = ([DVec2::NEG_INFINITY; 2], f64::INFINITY);
         for p in points {
             let p = p - center;
             let (across, depth) = (DVec2::new(p.dot(right), p.dot(up)), p.dot(forward));
+            nearest = nearest.min(depth);
             most =
                 [most[0].max(across - tangents * depth), most[1].max(-across - tangents * depth)];
         }
+        let nearest = nearest - NEAREST * (max - min).length();
         let eye = |slack: f64| {
             let slack = slack * (1.0 + tangents * tangents).map(f64::sqrt);
             let [upper, lower] = most.map(|most| most + slack);
             let across = (upper - lower) / 2.0;
-            let depth = (-(upper + lower) / (2.0 * tangents)).min_element();
+            let depth = (-(upper + lower) / (2.0 * tangents)).min_element().min(nearest);
             // A single point at the origin.
             let depth = if depth < -f64::from(f32::MIN_POSITIVE) { depth } else { -1.0 };
             center + right * across.x + up * across.y + forward * depth

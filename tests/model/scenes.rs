@@ -103,7 +103,7 @@ fn all_is_seen_whatever_shape_and_film_are() {
         let scale = 10.0_f32.powf(rng.within(-6.0, 6.0));
         let [x, y, z] = rng.direction().to_array();
         let (move_by, degrees) = ((rng.direction() * scale).to_array(), rng.within(0.0, 360.0));
-        let side = |rng: &mut Rng| 1 + rng.below(1000);
+        let side = |rng: &mut Rng| 200 + rng.below(200);
         let set = [
             format!("shape.model.scale={scale}"),
             format!("shape.model.rotate=[{x},{y},{z},{degrees}]"),
