@@ -328,7 +328,7 @@ fn missing_keys() {
         ),
         (
             "[texture.t]",
-            "s.toml:1:1: [texture.t] lacks `type`, expected \"constant\", \"image\", \"product\" or \"mix\"",
+            "s.toml:1:1: [texture.t] lacks `type`, expected \"constant\", \"image\", \"checkerboard\", \"product\" or \"mix\"",
         ),
         (
             "\n[texture.t]\ntype = \"constant\"",

@@ -1,10 +1,12 @@
 //! What tells one scene from another, in lines.
 
-use std::path::PathBuf;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{UVec2, Vec2, Vec3};
 
+use crate::file;
 use crate::params::{Document, Node, Value};
 use crate::scene::Scene;
 use crate::shape::TriangleMesh;
@@ -26,10 +28,40 @@ pub fn lines(
     }
     lines.extend_from_slice(faces);
     // By name alone and sorted: the same in any folder.
-    let mut images: Vec<_> = textures.images().into_iter().map(image).collect();
-    images.sort();
-    lines.extend(images);
+    let images = textures.images();
+    let others = document.files().into_iter().filter(|file| {
+        // Meshes have lines of their own.
+        let is_mesh = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj"));
+        !is_mesh && images.iter().all(|(image, ..)| image != file)
+    });
+    let mut files: Vec<_> = others.map(|file| other(&file)).collect();
+    files.extend(images.into_iter().map(image));
+    files.sort();
+    lines.extend(files);
     lines
+}
+
+/// A file that a kind reads by itself: of a light.
+fn other(path: &Path) -> String {
+    let mut sum = crc32fast::Hasher::new();
+    let read = file::open(path).and_then(|file| {
+        let mut reader = BufReader::new(file);
+        loop {
+            let bytes = reader.fill_buf()?;
+            if bytes.is_empty() {
+                return Ok(());
+            }
+            sum.update(bytes);
+            let count = bytes.len();
+            reader.consume(count);
+        }
+    });
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    match read {
+        Ok(()) => format!("file {name:?} = checksum {:08x}", sum.finalize()),
+        // It was there when the scene was loaded.
+        Err(error) => format!("file {name:?} = {error}"),
+    }
 }
 
 fn image((file, curve, texels): (PathBuf, Curve, Arc<Texels>)) -> String {

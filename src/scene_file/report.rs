@@ -42,6 +42,8 @@ pub struct FaceMaterial {
 pub struct TextureImage {
     /// The file.
     pub file: PathBuf,
+    /// What its codes mean.
+    pub curve: Curve,
     /// Columns and rows.
     pub size: UVec2,
     /// Bytes in memory.
@@ -49,7 +51,7 @@ pub struct TextureImage {
 }
 
 impl TextureImage {
-    pub(super) fn of((file, _, texels): (PathBuf, Curve, Arc<Texels>)) -> Self {
-        Self { file, size: texels.size(), bytes: texels.bytes() }
+    pub(super) fn of((file, curve, texels): (PathBuf, Curve, Arc<Texels>)) -> Self {
+        Self { file, curve, size: texels.size(), bytes: texels.bytes() }
     }
 }

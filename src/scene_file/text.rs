@@ -10,11 +10,17 @@ use crate::params::{Fault, Mark};
 /// Maximum size of a file, in MiB: for scenes of more than three million materials.
 const MOST: u64 = 128;
 
-/// The text of a scene file, whose name has to tell that it is one.
+/// Endings of models and scenes of other programs.
+const FOREIGN: [&str; 18] = [
+    "3ds", "abc", "blend", "dae", "fbx", "glb", "gltf", "mtl", "pbrt", "ply", "stl", "usd", "usda",
+    "usdc", "usdz", "wrl", "x3d", "xml",
+];
+
+/// The text of a scene file. Its name must not tell that it is something else.
 pub fn of_scene(path: &Path) -> Result<String, SceneFileError> {
-    let is_toml = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    let ending = path.extension().unwrap_or_default();
     let unreadable = |source| SceneFileError::Unreadable { path: path.to_owned(), source };
-    if !is_toml {
+    if FOREIGN.iter().any(|foreign| ending.eq_ignore_ascii_case(foreign)) {
         file::open(path).map_err(unreadable)?;
         return Err(SceneFileError::Ending(path.to_owned()));
     }

@@ -19,9 +19,10 @@ impl Choice for Wrap {
 }
 
 impl Wrap {
-    /// The coordinate in `[0, 1]` that stands for this one.
+    /// The coordinate in `[0, 1]` that stands for this one. In f64, which holds the difference of a coordinate and an integer exactly.
     #[inline]
-    fn folded(self, s: f32) -> f32 {
+    fn folded(self, s: f32) -> f64 {
+        let s = f64::from(s);
         match self {
             Self::Repeat => s - floor(s),
             Self::Mirror => {
@@ -35,9 +36,10 @@ impl Wrap {
     /// The pixel at a coordinate, of `count` in a row.
     #[inline]
     pub(super) fn nearest(self, s: f32, count: u32) -> u32 {
-        let index = |s: f32| (f64::from(s) * f64::from(count)) as u32;
+        let index = |s: f64| (s * f64::from(count)) as u32;
         match self {
             Self::Mirror => {
+                let s = f64::from(s);
                 let index = index(s - 2.0 * floor(0.5 * s)).min(2 * count - 1);
                 index.min(2 * count - 1 - index)
             }
@@ -48,8 +50,7 @@ impl Wrap {
     /// The two pixels whose centres are next to a coordinate, of `count` in a row, and the weight of the second.
     #[inline]
     pub(super) fn neighbours(self, s: f32, count: u32) -> ([u32; 2], f32) {
-        // In f64, as wide images have more columns than f32 tells apart.
-        let at = f64::from(self.folded(s)) * f64::from(count) - 0.5;
+        let at = self.folded(s) * f64::from(count) - 0.5;
         let last = count - 1;
         if at < 0.0 {
             let before = if self == Self::Repeat { last } else { 0 };
@@ -66,12 +67,12 @@ impl Wrap {
 
 /// The largest integer that is not larger. Without SSE4, that of the standard library is a call.
 #[inline]
-fn floor(x: f32) -> f32 {
-    // From 2^23 on all are integers.
-    if x.abs() >= 8_388_608.0 {
+fn floor(x: f64) -> f64 {
+    // From 2^52 on all are integers.
+    if x.abs() >= 4_503_599_627_370_496.0 {
         return x;
     }
-    let truncated = x as i32 as f32;
+    let truncated = x as i64 as f64;
     if truncated > x { truncated - 1.0 } else { truncated }
 }
 

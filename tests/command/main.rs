@@ -191,7 +191,9 @@ fn help_lists_what_scene_files_can_hold() {
     );
     assert_eq!(folder.prints("help render"), folder.prints("render --help"));
     assert_eq!(folder.prints("help"), folder.prints("--help"));
-    assert!(folder.prints("help").contains("  lights        point, distant, sky\n"));
+    assert!(
+        folder.prints("help").contains("  lights        point, spot, distant, sky, environment\n")
+    );
     folder.fails("help matreials", "there is no help on `matreials`; did you mean `materials`?");
     // All topics: seen to fail with a limit of twelve.
     folder.fails(

@@ -73,7 +73,8 @@ shape           model: 6 triangles
 material        model/red: 2 triangles
 material        model/blue: 2 triangles
 material        model/wood: 2 triangles
-texture         wood.png: 20x10 pixels, 0.00 MiB
+texture         wood.png: 20x10 pixels, srgb, 0.00 MiB
+texture         wood.png: 20x10 pixels, linear, 0.00 MiB
 warning         model.mtl:5: the key `shine` is not known
 warning         model.mtl:6: material \"wood\": map_Bump is not used yet
 triangles       6

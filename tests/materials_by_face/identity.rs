@@ -118,3 +118,17 @@ fn a_scene_tells_all_of_its_files() {
         assert!(files.contains(&fs::canonicalize(folder.join(name)).unwrap()), "{name}: {files:?}");
     }
 }
+
+/// Another image of the sky is another scene. Seen to fail with files of lights left out.
+#[test]
+fn an_identity_has_images_of_lights() {
+    let folder = folder("identity-lights");
+    scene(&folder);
+    let file = folder.join("s.toml");
+    let text = fs::read_to_string(&file).unwrap();
+    fs::write(&file, text + "[light.sky]\ntype = \"environment\"\nfile = \"sky.pfm\"\n").unwrap();
+    write_image(folder.join("sky.pfm"), &[0.25, 0.5]);
+    let before = identity(&folder);
+    write_image(folder.join("sky.pfm"), &[0.25, 0.75]);
+    assert_eq!(changed(&before, &identity(&folder)), ["file \"sky.pfm\""]);
+}

@@ -64,7 +64,7 @@ fn each_row_of_the_table_is_a_material() {
     let reflecting = |color: [f32; 3]| MetalMaterial::reflecting(color);
     assert_made("", MatteMaterial::new(grey), &[]);
     assert_made(kd, MatteMaterial::new(KD), &[]);
-    for illum in [0, 1, 8, 10] {
+    for illum in [0, 1, 10] {
         assert_made(&format!("{kd}Ks 0.5\nNs 10\nillum {illum}"), MatteMaterial::new(KD), &[]);
     }
     assert_made(&format!("{kd}Ks 0 0 0\nillum 2"), MatteMaterial::new(KD), &[]);
@@ -91,13 +91,14 @@ fn each_row_of_the_table_is_a_material() {
             reflecting([0.9, 0.8, 0.1]),
             &[],
         );
-        assert_made(&format!("{kd}Ks 0.9\nillum {illum}"), MatteMaterial::new(KD), &[]);
+        assert_made(&format!("{kd}Ks 0.9\nillum {illum}"), plastic(1.5), &[]);
         assert_made(&format!("Kd 0\nKs 0\nillum {illum}"), MatteMaterial::new([0.0; 3]), &[]);
     }
     for others in ["", "illum 7", "illum 2\nKs 1", "illum 1", "illum 3\nKs 1"] {
         assert_made(&format!("{kd}Pm 0.51\n{others}"), reflecting(KD), &[]);
         assert_made(&format!("Pm 1\n{others}"), reflecting([1.0; 3]), &[]);
     }
+    assert_made(&format!("{kd}Ks 0.9\nillum 8"), plastic(1.5), &[]);
     assert_made(&format!("{kd}Pm 0.5"), MatteMaterial::new(KD), &[]);
 }
 
@@ -256,7 +257,7 @@ fn maps_drive_every_parameter() {
     let kd = "Kd 0.2 0.4 0.6\n";
     let plastic = |roughness| PlasticMaterial::new(KD, 1.5).with_roughness(roughness);
     let metal = MetalMaterial::reflecting(KD);
-    let half = move |si: &SurfaceInteraction| if si.uv().x < 0.5 { 0.125 } else { 0.375 };
+    let half = ProductTexture::new(numbers(), 0.5);
     let cases: Vec<(&str, Arc<dyn Material>)> = vec![
         ("Ks 1\nmap_Pr -imfchan g two.pfm", Arc::new(plastic(Roughness::perceptual(numbers())))),
         ("Ks 1\nPr 1\nmap_Pr two.pfm", Arc::new(plastic(Roughness::perceptual(numbers())))),

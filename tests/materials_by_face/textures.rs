@@ -131,7 +131,7 @@ fn wrong_textures_are_refused() {
         ("type = \"image\"", "1:1: [texture.kd] lacks `file`, expected a text in quotes"),
         (
             "type = \"picture\"",
-            "2:8: `texture.kd.type` is \"picture\", expected \"constant\", \"image\", \"product\" or \"mix\"",
+            "2:8: `texture.kd.type` is \"picture\", expected \"constant\", \"image\", \"checkerboard\", \"product\" or \"mix\"",
         ),
         ("type = \"image\"\nfile = 3", "3:8: `texture.kd.file` is 3, expected a text in quotes"),
         ("type = \"image\"\nfile = \"no.png\"", "3:8: cannot read `no.png`: there is no such file"),

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use clap::Args;
 use lobe::TriangleMesh;
+use lobe::glam::UVec2;
 use lobe::params::{Choice, Shown};
 use lobe::render::{RenderSettings, SamplerSettings};
 use lobe::scene::View;
@@ -97,10 +98,11 @@ fn add_materials(summary: &mut Summary, report: &LoadReport) {
         summary.add("material", format!("{name}: {triangle_count} triangles{light}"));
     }
     let here = std::env::current_dir().unwrap_or_default();
-    for TextureImage { file, size, bytes, .. } in &report.images {
+    for TextureImage { file, curve, size, bytes, .. } in &report.images {
         let file = file.strip_prefix(&here).unwrap_or(file);
-        let (file, mib) = (file.display(), *bytes as f64 / MIB);
-        summary.add("texture", format!("{file}: {}x{} pixels, {mib:.2} MiB", size.x, size.y));
+        let (file, curve, mib) = (file.display(), curve.name(), *bytes as f64 / MIB);
+        let UVec2 { x, y } = size;
+        summary.add("texture", format!("{file}: {x}x{y} pixels, {curve}, {mib:.2} MiB"));
     }
 }
 
