@@ -117,7 +117,8 @@ fn jpeg_has_codes_in_all_its_kinds() {
         let (cb, cr) = (cb - 128.0, cr - 128.0);
         [y + 1.402 * cr, y - 0.344136 * cb - 0.714136 * cr, y + 1.772 * cb]
     };
-    let cases: [(&[(u8, u8)], Option<u8>, [f64; 3]); 6] = [
+    type Case<'a> = (&'a [(u8, u8)], Option<u8>, [f64; 3]);
+    let cases: [Case; 6] = [
         (&[(77, 1)], None, [77.0; 3]),
         (&[(200, 2)], None, [200.0; 3]),
         (&[(120, 1), (100, 1), (150, 1)], None, rgb(120.0, 100.0, 150.0)),

@@ -90,7 +90,7 @@ const JPEG: JpegFile<'static> = JpegFile {
 #[test]
 fn codes_and_coefficients_of_jpeg_files_count() {
     let colors = [(90, 2), (100, 1), (100, 1)];
-    for (components, bands) in [(&JPEG.components[..], 1), (&colors[..], 3)] {
+    for (components, bands) in [(JPEG.components, 1), (&colors[..], 3)] {
         let file = JpegFile { size: [1024, 512], components, ..JPEG }.bytes();
         let least = (16 + 8 + bands) * (1 << 19) + file.len() as u64;
         assert_eq!(Image::parse("a.jpg", &file, least).unwrap().pixels.len(), 1 << 19);

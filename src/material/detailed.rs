@@ -53,6 +53,24 @@ impl DetailedMaterial {
         Self { opacity: Some(opacity.into_handle()), ..self }
     }
 
+    /// The material with the details of its table in a scene file, or as it is if there are none.
+    ///
+    /// # Errors
+    /// Those of [`Textures::find`].
+    pub fn read(
+        table: &Table,
+        textures: &Textures,
+        material: Arc<dyn Material>,
+    ) -> Result<Arc<dyn Material>, Fault> {
+        let normals = textures.find(table, &NORMALS)?;
+        let bump = textures.find(table, &BUMP)?;
+        let opacity = textures.find(table, &OPACITY)?;
+        Ok(match (&normals, &bump, &opacity) {
+            (None, None, None) => material,
+            _ => Arc::new(Self { material, normals, bump, opacity }),
+        })
+    }
+
     fn detail(&self, si: &mut SurfaceInteraction) {
         if let Some(normals) = &self.normals {
             turn(normals, si);
@@ -107,18 +125,3 @@ const OPACITY: TextureKey<Option<f32>> = TextureKey::of(
 
 /// The keys of details, which all kinds of materials share.
 pub static DETAILS: &[&dyn AnyKey] = &[&NORMALS, &BUMP, &OPACITY];
-
-/// The material with the details of its table.
-pub fn with_details(
-    table: &Table,
-    textures: &Textures,
-    material: Arc<dyn Material>,
-) -> Result<Arc<dyn Material>, Fault> {
-    let normals = textures.find(table, &NORMALS)?;
-    let bump = textures.find(table, &BUMP)?;
-    let opacity = textures.find(table, &OPACITY)?;
-    Ok(match (&normals, &bump, &opacity) {
-        (None, None, None) => material,
-        _ => Arc::new(DetailedMaterial { material, normals, bump, opacity }),
-    })
-}

@@ -21,7 +21,6 @@ mod traits;
 mod translucent;
 
 pub use bump::{bump, turn};
-pub(crate) use detailed::with_details;
 pub use detailed::{DETAILS, DetailedMaterial};
 pub use glass::GlassMaterial;
 pub use matte::MatteMaterial;

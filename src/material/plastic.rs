@@ -74,10 +74,7 @@ impl PlasticMaterial {
         let alpha = self.roughness.at_block(hits);
         let fresnel = Fresnel::Dielectric { eta: self.eta };
         move |i| {
-            let base = match reflectance(kd[i]) {
-                Some(r) => Some(CoatedDiffuse::new(r, alpha[i], &self.losses)),
-                None => None,
-            };
+            let base = reflectance(kd[i]).map(|r| CoatedDiffuse::new(r, alpha[i], &self.losses));
             Coated::new(MicrofacetReflection::new(alpha[i], fresnel), base, &self.losses)
         }
     }

@@ -11,7 +11,7 @@ use crate::accel::InstructionSet;
 use crate::camera::Camera;
 use crate::image::Window;
 use crate::light::Light;
-use crate::material::{self, Material, Materials, with_details};
+use crate::material::{self, DetailedMaterial, Material, Materials};
 use crate::params::{Document, Fault, Kind, Mark, Problem, Table};
 use crate::render::{RenderSettings, SamplerSettings};
 use crate::sampling::SamplerKind;
@@ -59,7 +59,7 @@ pub fn describe(document: &Document) -> Result<Description, Fault> {
     let (mut materials, mut known) = (Vec::new(), Materials::default());
     for (name, table) in root.tables(sections::MATERIAL.key)? {
         let read = |kind: &Kind<material::Read>, table: &Table| {
-            with_details(table, &textures, (kind.read)(table, &textures, &known)?)
+            DetailedMaterial::read(table, &textures, (kind.read)(table, &textures, &known)?)
         };
         let material = sections::MATERIAL.read(table, read)?;
         known.add(name, material.clone());

@@ -45,7 +45,7 @@ fn a_model_alone_is_rendered() {
     assert_eq!(value(&summary, "scene"), "model.obj");
     let warnings: Vec<_> = summary.lines().filter(|line| line.starts_with("warning")).collect();
     assert_eq!(warnings, ["warning     model.mtl:5: the key `shine` is not known"],);
-    let image = Image::read(&folder.0.join("model.exr")).unwrap();
+    let image = Image::read(folder.0.join("model.exr")).unwrap();
     let pixel = |x: usize, y: usize| image.pixels[40 * y + x].to_array();
     let ([left, _, left_blue], [right_red, _, right]) = (pixel(13, 21), pixel(27, 21));
     assert!(left > 2.0 * left_blue && right > 2.0 * right_red, "{left} {right}");
@@ -76,7 +76,6 @@ material        model/wood: 2 triangles
 texture         wood.png: 20x10 pixels, srgb, 0.00 MiB
 texture         wood.png: 20x10 pixels, linear, 0.00 MiB
 warning         model.mtl:5: the key `shine` is not known
-warning         model.mtl:6: material \"wood\": map_Bump is not used yet
 triangles       6
 bounds          [-2, 0, 0] to [2, 4, 0]
 "
@@ -128,7 +127,7 @@ obj = "model.obj""#
     folder.write("own.toml", &scene);
     folder.prints(&format!("render own.toml -o own.exr {SMALL}"));
     folder.prints(&format!("render model.obj -o model.exr {SMALL} --set camera.fov=50"));
-    let pixels = |name: &str| Image::read(&folder.0.join(name)).unwrap().pixels;
+    let pixels = |name: &str| Image::read(folder.0.join(name)).unwrap().pixels;
     assert_eq!(pixels("own.exr"), pixels("model.exr"));
     folder.fails("info s.toml --scene", "`s.toml` is a scene file already: --scene is for models");
 }
