@@ -23,7 +23,7 @@ const LINES: [&str; 22] = [
     "Ks 0.4",
     "Ke 30 20 1e1",
     "Tf 1 0.5 .25",
-    "Ns 96.078431",
+    "Ns 96.078_43",
     "Ni 1.45",
     "d 0.75",
     "Tr 0.25",
@@ -48,7 +48,7 @@ fn assert_all(material: &MtlMaterial) {
     assert_eq!((material.kd, material.ks), (Some([0.1, 0.2, 0.3]), Some([0.4; 3])));
     assert_eq!((material.ke, material.tf), (Some([30.0, 20.0, 10.0]), Some([1.0, 0.5, 0.25])));
     let numbers = [material.ns, material.ni, material.d, material.tr, material.pr, material.pm];
-    assert_eq!(numbers.map(Option::unwrap), [96.078431, 1.45, 0.75, 0.25, 0.5, 1.0]);
+    assert_eq!(numbers.map(Option::unwrap), [96.078_43, 1.45, 0.75, 0.25, 0.5, 1.0]);
     assert_eq!(material.illum, Some(7));
     let MtlMaterial { map_kd, map_ke, map_d, map_pr, map_pm, map_bump, norm, .. } = material;
     let maps = [map_kd, map_ke, map_d, map_pr, map_pm, map_bump, norm];
