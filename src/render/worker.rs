@@ -12,8 +12,10 @@ use crate::integrator::{Counters, Wave};
 use crate::sampling::SampleId;
 
 /// How many samples go through the integrator together: enough for batches to pay, few enough for
-/// rays and hits to stay in the second-level cache.
-const WAVE: usize = 1024;
+/// rays and hits to stay in the second-level cache. In scenes of many materials more, so that blocks of one material are full.
+const fn wave(materials: usize) -> usize {
+    if materials > 8 { 4096 } else { 1024 }
+}
 
 /// How many points estimate a reflectance that has no closed form.
 const RHO_POINTS: usize = 16;
@@ -22,6 +24,8 @@ const RHO_POINTS: usize = 16;
 /// grows until it has met the hit that needs most.
 pub struct Worker<'a> {
     pass: &'a Pass<'a>,
+    /// Of a wave.
+    samples: usize,
     wave: Wave<'a>,
     /// How many samples of the wave in a row are of one set.
     runs: Vec<usize>,
@@ -42,14 +46,15 @@ impl<'a> Worker<'a> {
         let tile = Film::new(film.resolution, largest, pass.contents)?;
         let shadow_rays = pass.estimator.shadow_rays();
         let materials = pass.scene.material_count();
-        let bytes = Wave::bytes(WAVE, shadow_rays, materials);
+        let samples = wave(materials);
+        let bytes = Wave::bytes(samples, shadow_rays, materials);
         if !is_available(bytes) {
             return Err(RenderError::OutOfMemory(bytes as u64));
         }
-        let wave = Wave::with_capacity(WAVE, shadow_rays, materials, cancelled);
+        let wave = Wave::with_capacity(samples, shadow_rays, materials, cancelled);
         let rho_choices = std::array::from_fn(|i| (i as f32 * 0.754_877_7).fract());
-        let (runs, rho_points) = (Vec::with_capacity(WAVE), lattice());
-        Ok(Self { pass, wave, runs, tile, rho_choices, rho_points })
+        let (runs, rho_points) = (Vec::with_capacity(samples), lattice());
+        Ok(Self { pass, samples, wave, runs, tile, rho_choices, rho_points })
     }
 
     /// Renders the samples of the pass in a tile, wave by wave, and returns whether it took them all: once the render is
@@ -63,7 +68,7 @@ impl<'a> Worker<'a> {
             if self.wave.is_cancelled() {
                 return false;
             }
-            samples.fill(WAVE, &mut self.wave.ids, &mut self.runs);
+            samples.fill(self.samples, &mut self.wave.ids, &mut self.runs);
             self.wave.begin(scene, view, sampler);
             estimator.shade(sampler, &mut self.wave);
             if self.wave.is_cut() {

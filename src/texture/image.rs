@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use glam::Vec2;
+use glam::{UVec2, Vec2};
 
 use super::mapping::{self, Mapping};
 use super::texels::{Curve, Texels};
 use super::wrap::Wrap;
 use super::{AnyTexture, Read, Texture, Textures};
-use crate::interaction::{HitBlock, SurfaceInteraction};
+use crate::interaction::{BLOCK, HitBlock, SurfaceInteraction};
 use crate::params::{Choice, Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
 
@@ -119,20 +119,28 @@ impl ImageTexture {
     /// The same in the image or in a smaller one.
     #[inline]
     fn within(&self, texels: &Texels, st: Vec2) -> Spectrum {
+        self.place(texels.size(), st).value(texels)
+    }
+
+    /// Where a point of the image's plane lies among the pixels of an image of this size.
+    #[inline]
+    fn place(&self, size: UVec2, st: Vec2) -> Place {
         if !st.is_finite() {
-            return Spectrum::BLACK;
+            return Place::default();
         }
-        let ([wrap_s, wrap_t], size) = (self.wrap, texels.size());
+        let [wrap_s, wrap_t] = self.wrap;
         // Rows count from the top.
         let last = size.y - 1;
         match self.magnification {
             Magnification::Nearest => {
-                texels.at(wrap_s.nearest(st.x, size.x), last - wrap_t.nearest(st.y, size.y))
+                let [x, y] = [wrap_s.nearest(st.x, size.x), last - wrap_t.nearest(st.y, size.y)];
+                Place { x: [x; 2], y: [y; 2], part: [0.0; 2], exists: true }
             }
             Magnification::Bilinear => {
                 let (x, part_x) = wrap_s.neighbours(st.x, size.x);
                 let ([below, above], part_y) = wrap_t.neighbours(st.y, size.y);
-                texels.between(x, [last - below, last - above], [part_x, part_y])
+                let y = [last - below, last - above];
+                Place { x, y, part: [part_x, part_y], exists: true }
             }
         }
     }
@@ -179,6 +187,30 @@ impl ImageTexture {
     }
 }
 
+/// A point between four pixels.
+#[derive(Clone, Copy, Default)]
+struct Place {
+    x: [u32; 2],
+    y: [u32; 2],
+    /// Weights of the second column and of the second row.
+    part: [f32; 2],
+    /// Whether the point is finite.
+    exists: bool,
+}
+
+impl Place {
+    #[inline]
+    fn value(&self, texels: &Texels) -> Spectrum {
+        if !self.exists {
+            Spectrum::BLACK
+        } else if self.part == [0.0; 2] {
+            texels.at(self.x[0], self.y[0])
+        } else {
+            texels.between(self.x, self.y, self.part)
+        }
+    }
+}
+
 impl Texture<Spectrum> for ImageTexture {
     fn evaluate(&self, si: &SurfaceInteraction) -> Spectrum {
         let points = self.mapping.points(si).into_iter();
@@ -196,18 +228,23 @@ impl Texture<Spectrum> for ImageTexture {
     }
 
     fn evaluate_block(&self, hits: &HitBlock, values: &mut [Spectrum]) {
-        match self.mapping.of_uv().filter(|_| self.minification == Minification::None) {
-            Some(plane) => {
-                for (i, value) in values.iter_mut().enumerate() {
-                    // As the sum of one weighted value.
-                    *value = self.at(plane.transform_point2(hits.uv(i)));
-                }
+        let plane = self.mapping.of_uv().filter(|_| self.minification == Minification::None);
+        let Some(plane) = plane else {
+            for (i, value) in values.iter_mut().enumerate() {
+                *value = self.evaluate(&hits.get(i));
             }
-            None => {
-                for (i, value) in values.iter_mut().enumerate() {
-                    *value = self.evaluate(&hits.get(i));
-                }
-            }
+            return;
+        };
+        // In steps, so that the processor waits for the memory of many hits at once.
+        let mut places = [Place::default(); BLOCK];
+        let places = &mut places[..values.len()];
+        for (i, place) in places.iter_mut().enumerate() {
+            *place = self.place(self.texels.size(), plane.transform_point2(hits.uv(i)));
+        }
+        let touched = places.iter().map(|place| self.texels.touch(place.x[0], place.y[0]));
+        std::hint::black_box(touched.fold(0, u32::wrapping_add));
+        for (place, value) in places.iter().zip(values) {
+            *value = place.value(&self.texels);
         }
     }
 }

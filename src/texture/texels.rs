@@ -205,6 +205,16 @@ impl Texels {
         sum.finalize()
     }
 
+    /// Reads a pixel, so that it is in the cache.
+    #[inline]
+    pub(super) fn touch(&self, x: u32, y: u32) -> u32 {
+        let tile = (y / 4 * self.tiles + x / 4) as usize;
+        match &self.pixels {
+            Pixels::Codes(tiles, _) => tiles[tile].0[0][0].into(),
+            Pixels::Values(tiles) => tiles[tile].0[0][0].to_bits(),
+        }
+    }
+
     /// The value of a pixel.
     ///
     /// # Panics
