@@ -18,6 +18,7 @@ mod rng;
 mod sums;
 pub mod sweep;
 mod tally;
+mod textures;
 mod usual_rectangle;
 mod usual_triangle;
 
@@ -27,7 +28,7 @@ use sweep::Sweep;
 pub type Measure = fn(f64) -> Sweep;
 
 /// The names of the sweeps, in order, and the functions that measure them.
-pub const ALL: [(&str, Measure); 28] = [
+pub const ALL: [(&str, Measure); 30] = [
     ("ray-origins-scale", ray_origins::self_hits_by_scale),
     ("ray-origins-distance", ray_origins::self_hits_by_distance),
     ("ray-contacts-scale", ray_origins::contacts_by_scale),
@@ -56,6 +57,8 @@ pub const ALL: [(&str, Measure); 28] = [
     ("facets-pole", facets::pole),
     ("facets-horizon", facets::horizon),
     ("facets-samples", facets::visible_normals),
+    ("textures-grazing", textures::grazing),
+    ("textures-distance", textures::distance),
 ];
 
 /// All sweeps, with `effort` times the usual number of trials. Calls `begins` with the name of each before it is
