@@ -628,3 +628,19 @@ fn thin_screens_let_a_part_of_the_rays_pass() {
     // The floor is not equally bright, which adds less than a tenth.
     assert!((through - share).abs() < 5.5 * error, "{through}");
 }
+
+/// Lamps have no holes: their light is sampled everywhere on them. Seen to fail with holes in lamps.
+#[test]
+fn lamps_have_no_holes() {
+    let of = |opacity: f32| {
+        let matte = MatteMaterial::new([0.5; 3]);
+        let paper = lobe::material::DetailedMaterial::new(matte).with_opacity(opacity);
+        let lamp = lobe::TriangleMesh::parallelogram(Vec3::new(-0.5, -1.0, -0.5), Vec3::X, Vec3::Z);
+        let emission = lobe::scene::Emission { radiance: Spectrum::WHITE, two_sided: true };
+        let scene = floor_of(MatteMaterial::new([0.5; 3]))
+            .material("paper", paper)
+            .glowing_shape("lamp", lamp, "paper", emission);
+        rendered(scene, &from_above()).picture.color
+    };
+    assert!(of(0.0) == of(1.0));
+}

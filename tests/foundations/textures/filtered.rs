@@ -48,8 +48,8 @@ fn magnified_images_are_as_they_are() {
     }
 }
 
-/// From a footprint of two pixels to one of 1500 pixels, as wide as long or up to 12 times longer, the error against brute force is at most
-/// half of that of a single lookup, in the root of mean squares; at 1.5 pixels, 0.8 of it. Seen to fail with the level of the longer side, with that of half the
+/// From a footprint of four pixels to one of 1500 pixels, as wide as long or up to 12 times longer, the error against brute force is at most a
+/// third of that of a single lookup, in the root of mean squares; at 1.5 pixels, 0.6 of it. Seen to fail with the level of the longer side, with that of half the
 /// shorter side, and with lookups along half of the longer side.
 #[test]
 fn filtered_lookups_are_near_the_mean_over_the_footprint() {
@@ -79,7 +79,14 @@ fn filtered_lookups_are_near_the_mean_over_the_footprint() {
                     single += (grey(image.at(st)) - mean).powi(2);
                 }
                 let quotient = (filtered / single).sqrt();
-                if quotient > if width < 2.0 { 0.8 } else { 0.5 } {
+                // In one dimension, fewer pixels average out.
+                let most = match (case, width < 2.0) {
+                    (3, true) => 0.8,
+                    (3, false) => 0.5,
+                    (_, true) => 0.6,
+                    (_, false) => 1.0 / 3.0,
+                };
+                if quotient > most {
                     failures.push(format!("case {case}, {width}, {ratio}: {quotient}"));
                 }
             }
@@ -164,7 +171,7 @@ fn every_projection_is_filtered() {
     ] {
         let mapping = Mapping::new(projection)
             .placed(Vec3::new(0.1, 0.2, -1.5), turn)
-            .scaled(Vec2::new(1.5, 0.7))
+            .scaled(Vec2::new(6.0, 0.7))
             .rotated(0.3);
         let filtered = texture().with_mapping(mapping);
         let single = texture().with_mapping(mapping).with_minification(Minification::None);
@@ -187,12 +194,32 @@ fn every_projection_is_filtered() {
     }
 }
 
-/// A checkerboard over a footprint along its axes has a closed form; far away it is the mean of both, near by it is one or the other. Seen
+/// Across the seam of the longitudes nothing is blurred. Seen to fail with steps that go once around.
+#[test]
+fn seams_are_not_blurred() {
+    // The axis is along y, the seam above it.
+    let turn = lobe::glam::Quat::from_mat3(&lobe::glam::Mat3::from_cols(Vec3::Z, Vec3::X, Vec3::Y));
+    for projection in [Projection::Cylindrical, Projection::Spherical] {
+        let mapping = Mapping::new(projection).placed(Vec3::NEG_Z, turn);
+        let texture = noise([64, 64], 9).with_mapping(mapping);
+        let cone = PixelCone::parallel(-Vec3::Z, 0.001);
+        for x in [-4e-4_f32, -1e-4, 1e-4, 4e-4] {
+            let p = Vec3::new(x, 0.2, 0.0);
+            let single = texture.clone().with_minification(Minification::None);
+            let (found, near) =
+                (texture.evaluate(&seen(&cone, p)), single.evaluate(&seen(&cone, p)));
+            assert_eq!(found, near, "{projection:?}, {x}");
+        }
+    }
+}
+
+/// A checkerboard over a footprint has a closed form in the box around it; far away it is the mean of both, near by it is one or the other. Seen
 /// to fail with the odd squares for the even ones, and with half of the footprint.
 #[test]
 fn checkerboards_are_filtered_in_closed_form() {
-    let board =
-        CheckerboardTexture::new(0.0_f32, 1.0_f32).with_mapping(Mapping::new(Projection::Planar));
+    let board = CheckerboardTexture::new(0.0_f32, 1.0_f32)
+        .with_mapping(Mapping::new(Projection::Planar).rotated(0.4));
+    let turn = Vec2::from_angle(0.4);
     // Parallel rays from above: squares of this width.
     for (trial, width) in [0.3_f32, 0.9, 1.7, 5.2].into_iter().enumerate() {
         let cone = PixelCone::parallel(-Vec3::Z, width);
@@ -200,12 +227,13 @@ fn checkerboards_are_filtered_in_closed_form() {
         for _ in 0..50 {
             let p = Vec3::new(6.0 * rng.f32() - 3.0, 6.0 * rng.f32() - 3.0, 0.0);
             let [a, b] = seen(&cone, p).footprint().unwrap();
-            let box_size = a.abs() + b.abs();
+            let turned = |v: Vec3| turn.rotate(v.truncate());
+            let (center, box_size) = (turned(p), turned(a).abs() + turned(b).abs());
             let at = |i: u32| (i as f32 + 0.5) / 256.0 - 0.5;
             let is_odd = |x: f32, y: f32| (x.floor() + y.floor()).rem_euclid(2.0);
             let row = |i: u32| {
-                let x = p.x + box_size.x * at(i);
-                (0..256).map(|j| f64::from(is_odd(x, p.y + box_size.y * at(j)))).sum::<f64>()
+                let x = center.x + box_size.x * at(i);
+                (0..256).map(|j| f64::from(is_odd(x, center.y + box_size.y * at(j)))).sum::<f64>()
             };
             let mean = (0..256).map(row).sum::<f64>() / 65536.0;
             let found = f64::from(board.evaluate(&seen(&cone, p)));
@@ -217,7 +245,13 @@ fn checkerboards_are_filtered_in_closed_form() {
     assert!((found - 0.5).abs() < 1e-4, "{found}");
     let near = PixelCone::parallel(-Vec3::Z, 1e-4);
     let at = |x, y| board.evaluate(&seen(&near, Vec3::new(x, y, 0.0)));
-    assert_eq!([at(0.5, 0.5), at(1.5, 0.5), at(-0.5, 0.5), at(-0.5, 1.5)], [0.0, 1.0, 1.0, 0.0]);
+    // Points of the turned squares.
+    let square = |s: f32, t: f32| {
+        let p = Vec2::from_angle(-0.4).rotate(Vec2::new(s, t));
+        at(p.x, p.y)
+    };
+    let found = [square(0.5, 0.5), square(1.5, 0.5), square(-0.5, 0.5), square(-0.5, 1.5)];
+    assert_eq!(found, [0.0, 1.0, 1.0, 0.0]);
 }
 
 /// An image is decoded once and its smaller images are made once, however many textures share them.
