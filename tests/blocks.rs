@@ -14,6 +14,7 @@ use lobe::bxdf::{
 use lobe::camera::Camera;
 use lobe::geometry::{Frame, Ray};
 use lobe::glam::{UVec2, Vec2, Vec3};
+use lobe::image::{Encoding, Image};
 use lobe::integrator::{DirectIntegrator, Integrator, PathIntegrator};
 use lobe::interaction::{HitBlock, SurfaceInteraction, SurfacePlace};
 use lobe::light::{
@@ -22,7 +23,7 @@ use lobe::light::{
 };
 use lobe::material::{DetailedMaterial, Material, MetalMaterial, PlasticMaterial, Roughness, bump};
 use lobe::scene::{Emission, SceneBuilder};
-use lobe::texture::Texture;
+use lobe::texture::{Curve, ImageTexture, Mapping, Projection, Texels, Texture};
 use lobe::{
     FilmSettings, MatteMaterial, PointLight, RenderOptions, Scene, Spectrum, TriangleMesh, View,
     render,
@@ -524,6 +525,32 @@ fn glossy_surfaces_change_no_bit() {
             let set = sets[(i + j) % sets.len()];
             assert!(of(material.clone(), set) == apart, "{i}, {set}, {integrator:?}");
             assert!(of(Arc::new(Disguised(material.clone())), set) == apart, "{i}, {integrator:?}");
+        }
+    }
+}
+
+/// Images are looked up in blocks as one by one, by texture coordinates and by a projection. Seen to fail with values of a block left out.
+#[test]
+fn images_change_no_bit() {
+    let pixels = (0..35).map(|i| Spectrum::new(0.01 * i as f32, 0.5, 1.0 / (1 + i) as f32));
+    let (size, pixels) = (UVec2::new(5, 7), pixels.collect());
+    let encoding = Encoding::Linear;
+    let image = Image { size, pixels, variance: None, degrees_of_freedom: None, encoding };
+    let texels = Arc::new(Texels::new(&image, Curve::Linear));
+    for projection in [Projection::Uv, Projection::Planar] {
+        let mapping = Mapping::new(projection).scaled(Vec2::new(1.7, -2.3));
+        let image = ImageTexture::new(texels.clone()).with_mapping(mapping);
+        let one = image.clone();
+        let single = move |si: &SurfaceInteraction| one.evaluate(si);
+        for integrator in integrators() {
+            let of = |material: Arc<dyn Material>| {
+                colors(scene([material.clone(), material], true, many_lights()), &integrator)
+            };
+            let in_blocks = of(Arc::new(MatteMaterial::new(image.clone())));
+            assert!(
+                in_blocks == of(Arc::new(MatteMaterial::new(single.clone()))),
+                "{integrator:?}"
+            );
         }
     }
 }

@@ -644,3 +644,28 @@ fn lamps_have_no_holes() {
     };
     assert!(of(0.0) == of(1.0));
 }
+
+/// The camera's pixels reach the textures: far away, one sample a pixel shows the mean of an image. Seen to fail with a camera that is not
+/// known to them.
+#[test]
+fn far_images_are_filtered() {
+    use lobe::image::{Encoding, Image};
+    use lobe::texture::{Curve, ImageTexture, Mapping, Minification, Projection, Texels};
+    let pixels = (0..64 * 64).map(|i| Spectrum::splat((i % 64 / 32 + i / 64 / 32) as f32 % 2.0));
+    let (size, pixels, encoding) = (UVec2::splat(64), pixels.collect(), Encoding::Linear);
+    let image = Image { size, pixels, variance: None, degrees_of_freedom: None, encoding };
+    let texels = Arc::new(Texels::new(&image, Curve::Linear));
+    let upright = lobe::glam::Quat::from_rotation_x(std::f32::consts::FRAC_PI_2);
+    // 50 images in a pixel.
+    let mapping =
+        Mapping::new(Projection::Planar).placed(Vec3::ZERO, upright).scaled(Vec2::splat(400.0));
+    let errors = |minification| {
+        let image =
+            ImageTexture::new(texels.clone()).with_mapping(mapping).with_minification(minification);
+        let scene = floor_of(MatteMaterial::new(image)).light(SkyLight::new(Spectrum::WHITE));
+        let color = rendered(scene, &from_above()).picture.color;
+        color.iter().map(|color| (color.to_array()[0] - 0.5).abs()).fold(0.0, f32::max)
+    };
+    assert!(errors(Minification::Anisotropic) < 0.02, "{}", errors(Minification::Anisotropic));
+    assert!(errors(Minification::None) > 0.2);
+}

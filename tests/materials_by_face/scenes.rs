@@ -264,3 +264,18 @@ fn all_faces_may_be_lamps() {
     write(&folder, "m.mtl", MTL.replace("Ke 30 20 10", "Ke 0 0 0"));
     assert!(load(&folder, "[shape.s]\nobj = \"m.obj\"\n").scene.lights().is_empty());
 }
+
+/// Lamps of MTL files emit on both sides, or on one if the shape says so. Seen to fail with `two_sided` left out.
+#[test]
+fn lamps_of_faces_emit_where_they_are_asked_to() {
+    let folder = folder("scenes-two-sided");
+    write(&folder, "m.obj", squares(["usemtl lamp"; 5]));
+    write(&folder, "m.mtl", MTL);
+    let power = |more: &str| {
+        let loaded = load(&folder, &format!("[shape.s]\nobj = \"m.obj\"\n{more}"));
+        let power = loaded.scene.lights()[0].power(&Default::default());
+        power.unwrap().to_array()[0]
+    };
+    assert_eq!(power(""), power("two_sided = true\n"));
+    assert_eq!(power(""), 2.0 * power("two_sided = false\n"));
+}

@@ -194,6 +194,34 @@ fn every_projection_is_filtered() {
     }
 }
 
+/// Over an edge, a footprint holds so much of each side, whichever of its sides is the longer one. Seen to fail with lookups along half of
+/// the longer side, and with the sides exchanged.
+#[test]
+fn footprints_are_as_long_as_they_are() {
+    let values = (0..256).map(|i| if i < 128 { 0.0 } else { 1.0 });
+    let texels = Texels::new(&image([256, 1], Encoding::Linear, values), Curve::Linear);
+    let texture = ImageTexture::new(texels).with_wrap(Wrap::Clamp);
+    let (long, short) = (Vec2::X * 0.5, Vec2::Y * 1e-3);
+    for (s, part) in [(0.3, 0.1), (0.4, 0.3), (0.5, 0.5), (0.6, 0.7), (0.7, 0.9)] {
+        for steps in [[long, short], [short, long], [-short, long]] {
+            let found = grey(texture.mean(Vec2::new(s, 0.5), steps));
+            assert!((found - part).abs() < 0.04, "{s}, {steps:?}: {found}, not {part}");
+        }
+    }
+}
+
+/// Seen to fail with steps that the mapping does not scale.
+#[test]
+fn steps_are_scaled_as_coordinates_are() {
+    let scale = 8.0;
+    let plain = noise([64, 64], 11);
+    let scaled = plain.clone().with_mapping(Mapping::default().scaled(Vec2::splat(scale)));
+    let cone = PixelCone::parallel(-Vec3::Z, 0.1);
+    let si = seen(&cone, Vec3::new(0.31, 0.17, 0.0));
+    let steps = si.footprint().unwrap().map(|step| si.uv_step(step) * scale);
+    assert_eq!(scaled.evaluate(&si), plain.mean(si.uv() * scale, steps));
+}
+
 /// Across the seam of the longitudes nothing is blurred. Seen to fail with steps that go once around.
 #[test]
 fn seams_are_not_blurred() {
