@@ -54,7 +54,7 @@ pub fn lamp(
     }
 }
 
-/// The hall without lamps: floor, ceiling, two walls, and 5 x 5 pillars.
+/// The hall without lamps: floor, ceiling, two walls, and 4 x 4 pillars.
 pub fn hall() -> SceneBuilder {
     let (x, y, z) = (Vec3::X * 2.0 * HALF, Vec3::Y * HEIGHT, Vec3::Z * 2.0 * HALF);
     let corner = Vec3::new(-HALF, 0.0, -HALF);
@@ -65,9 +65,9 @@ pub fn hall() -> SceneBuilder {
         .shape("ceiling", TriangleMesh::parallelogram(corner + y, x, z), "plaster")
         .shape("back", TriangleMesh::parallelogram(corner + z, x, y), "plaster")
         .shape("side", TriangleMesh::parallelogram(corner + x, y, z), "plaster");
-    for i in 0..25 {
-        let at = |i: i32| (i - 2) as f32 * 0.36 * HALF;
-        let foot = Vec3::new(at(i % 5), 0.0, at(i / 5));
+    for i in 0..16 {
+        let at = |i: i32| (i as f32 - 1.5) * 0.45 * HALF;
+        let foot = Vec3::new(at(i % 4), 0.0, at(i / 4));
         let corners = [Vec3::X + Vec3::Z, Vec3::Z - Vec3::X, -Vec3::X - Vec3::Z, Vec3::X - Vec3::Z];
         for side in 0..4 {
             let [from, to] = [corners[side], corners[(side + 1) % 4]].map(|c| foot + 0.5 * c);
