@@ -69,3 +69,27 @@ fn many_lights_have_one_value() {
         assert_alike(&reference, &estimate(false, strategy, seed), &format!("{strategy:?}"));
     }
 }
+
+/// Direct light of nine large panels, which surfaces find as often as lights do, so that weights matter.
+#[test]
+fn large_lamps_have_one_value() {
+    let estimate = |strategy, seed| {
+        let mut builder = hall();
+        for i in 0..9 {
+            let at = |i: i32| (i as f32 - 1.0) * 12.0 - 4.0;
+            let corner = Vec3::new(at(i % 3), 3.0, at(i / 3));
+            let mesh = TriangleMesh::parallelogram(corner, Vec3::X * 8.0, Vec3::Z * 8.0);
+            let glow = Spectrum::splat(1.0 + (i % 4) as f32);
+            builder = lamp(builder, format!("lamp {i}"), mesh, glow, false);
+        }
+        let sampler =
+            SamplerSettings { kind: SamplerKind::INDEPENDENT, spp: 4096, seed, replicates: 64 };
+        let integrator = PathIntegrator { max_depth: 1, roulette: false, strategy };
+        let settings = RenderSettings::new(sampler, integrator);
+        bands(&picture(builder, &hall_view(UVec2::new(24, 16)), &settings))
+    };
+    let reference = estimate(LightStrategy::Bsdf, 0);
+    for (seed, strategy) in [(1, LightStrategy::Mis), (2, LightStrategy::Light)] {
+        assert_alike(&reference, &estimate(strategy, seed), &format!("{strategy:?}"));
+    }
+}

@@ -154,7 +154,7 @@ fn lights_are_drawn_as_often_as_told() {
     }
 }
 
-/// Eight lights hang on one node: their probabilities are in proportion to power over squared distance, times the cosine at a
+/// Eight lights hang on one node, and one has no place: their probabilities are in proportion to power over squared distance, times the cosine at a
 /// lamp and the falloff of a spot's border.
 #[test]
 fn near_and_facing_lights_are_preferred() {
@@ -186,11 +186,20 @@ fn near_and_facing_lights_are_preferred() {
             powers.push(power);
             arriving.push(intensity / to_p.length_squared());
         }
+        powers.push(0.7);
+        lights.push(Arc::new(Told { bounds: None, power: Some(0.7 / 3.0) }));
         let sampler = sampler(&lights);
         let sum = |values: &[f32]| values.iter().sum::<f32>();
-        for light in 0..8 {
-            let by_power = 0.9 * powers[light] / sum(&powers) + 0.1 / 8.0;
-            let expected = 0.9 * arriving[light] / sum(&arriving) + 0.1 * by_power;
+        let by_power = |light: usize| 0.9 * powers[light] / sum(&powers) + 0.1 / 9.0;
+        let with_place: f32 = (0..8).map(by_power).sum();
+        for light in 0..9 {
+            let expected = match arriving.get(light) {
+                Some(light_here) => {
+                    let by_tree = light_here / sum(&arriving);
+                    0.9 * with_place * by_tree + 0.1 * by_power(light)
+                }
+                None => by_power(light),
+            };
             let told = sampler.probability(light, p);
             assert!((told / expected - 1.0).abs() < 1e-3, "trial {trial}: {told}, {expected}");
         }
@@ -216,8 +225,9 @@ fn no_light_that_shines_is_taken_for_dark() {
                 _ => {
                     // A bent sheet, with normals up to some angle apart.
                     let (x, y, bend) = (rng.direction(), rng.direction(), rng.direction());
-                    let positions = vec![at, at + x, at + y, at + x + y + bend * rng.f32()];
-                    let indices = vec![[0, 1, 2], [2, 1, 3]];
+                    let far = at + x + y + bend * rng.f32();
+                    let positions = vec![at, at + x, at + y, far, far + rng.direction()];
+                    let indices = vec![[0, 1, 2], [2, 1, 3], [2, 3, 4]];
                     let mesh = TriangleMesh { positions, indices, ..Default::default() };
                     let two_sided = rng.below(2) == 0;
                     let light = AreaLight::new(&mesh, L, two_sided);
