@@ -37,6 +37,9 @@ pub(super) enum Child {
     Light(u32),
 }
 
+/// More than the rounding of cosines.
+const MARGIN: f32 = 1e-6;
+
 /// Set in the index of a light.
 const LIGHT: u32 = 1 << 31;
 
@@ -68,7 +71,8 @@ impl Node {
         self.radius2[lane] = radius2 as f32;
         let (sin, cos) = bounds.cone.normals.sin_cos();
         (self.cos_normals[lane], self.sin_normals[lane]) = (cos as f32, sin as f32);
-        self.cos_emission[lane] = bounds.cone.emission.cos() as f32;
+        // A spot without a soft border has the cosine 1, which none of f32 is sure to exceed.
+        self.cos_emission[lane] = bounds.cone.emission.cos() as f32 - MARGIN;
         self.two_sided[lane] = f32::from(bounds.two_sided);
         self.intensity[lane] = intensity as f32;
         self.children[lane] = match child {

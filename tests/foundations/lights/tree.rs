@@ -109,6 +109,7 @@ fn receiver(rng: &mut Rng, lights: &[Arc<dyn Light>]) -> Vec3 {
 
 /// Each light has at least a tenth of what it has by power alone, all of them together have 1, and the selected one's
 /// probability is the one that is asked for.
+/// Seen to fail with the share of the tree left out of what `pick` tells, and with nodes without any weight taken as they are.
 #[test]
 fn probabilities_sum_to_one() {
     for trial in 0..400 {
@@ -134,6 +135,7 @@ fn probabilities_sum_to_one() {
 }
 
 /// Lights are selected as often as their probabilities say.
+/// Seen to fail with a sample value that is not stretched from node to node.
 #[test]
 fn lights_are_drawn_as_often_as_told() {
     let (trials, samples) = (40, 200_000);
@@ -156,6 +158,7 @@ fn lights_are_drawn_as_often_as_told() {
 
 /// Eight lights hang on one node, and one has no place: their probabilities are in proportion to power over squared distance, times the cosine at a
 /// lamp and the falloff of a spot's border.
+/// Seen to fail with the distance in place of its square, one side for two, and the last tenth not made smaller.
 #[test]
 fn near_and_facing_lights_are_preferred() {
     for trial in 0..200 {
@@ -208,6 +211,8 @@ fn near_and_facing_lights_are_preferred() {
 
 /// Where light arrives from a light, the tree gives it more than the tenth that is left by power: bounds hold what they are
 /// bounds of.
+/// Seen to fail without the angle of the sphere, with the axis of a union turned away, with the smaller of two angles of emission,
+/// the last of the angles of normals, two sides lost in a union, and with spots whose border is too sharp for a cosine in f32.
 #[test]
 fn no_light_that_shines_is_taken_for_dark() {
     let mut lit = 0;
@@ -218,7 +223,7 @@ fn no_light_that_shines_is_taken_for_dark() {
             match rng.below(3) {
                 0 => {
                     let cone = rng.within(1.0, 180.0);
-                    let start = cone * rng.f32();
+                    let start = cone * [rng.f32(), 1.0][rng.below(2)];
                     Arc::new(SpotLight::new(at, rng.direction(), L, cone, start).unwrap())
                 }
                 1 => Arc::new(small_lamp(rng, at)),
@@ -257,6 +262,7 @@ fn no_light_that_shines_is_taken_for_dark() {
 }
 
 /// Probabilities do not depend on the unit of length.
+/// Seen to fail with half the diagonal for a squared distance, as PBRT has it.
 #[test]
 fn any_unit_of_length_will_do() {
     for trial in 0..50 {
