@@ -147,9 +147,13 @@ impl PathTracer<'_> {
                 let (light, si) = (&scene.lights()[index], scene.interaction(ray, hit));
                 // The surface point, not the offset ray origin: `sample_li` gets the same point.
                 let hit = LightHit::on_surface(if at.at_camera { ray.o } else { path.p }, &si);
-                let weighting = rules.weighting(index);
                 // Light sampling cannot find paths from the camera or from delta events.
-                let needs_pdf = weighting.needs_pdf() && path.pdf < f32::INFINITY;
+                let found_only = path.pdf == f32::INFINITY;
+                let weighting = match found_only {
+                    true => rules.weighting_found_only(index),
+                    false => rules.weighting(index, path.p),
+                };
+                let needs_pdf = weighting.needs_pdf() && !found_only;
                 let light_pdf = if needs_pdf { light.pdf_li(&hit) } else { 1.0 };
                 let weight = weighting.weight(path.pdf, light_pdf);
                 if weight != 0.0 {

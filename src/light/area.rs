@@ -2,12 +2,12 @@
 
 use std::f32::consts::PI;
 
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 use super::block::{Incident, WideLight, sample_wide};
 use super::rectangle::Rectangle;
 use super::sample::end_of_shadow_ray;
-use super::{BoundingSphere, Light, LightHit, LightSample, LightSamples, Receivers};
+use super::{BoundingSphere, Light, LightBounds, LightHit, LightSample, LightSamples, Receivers};
 use crate::geometry::{BoundedPoint, Xyz, unit_wide};
 use crate::sampling::{Discrete, uniform_triangle};
 use crate::shape::{TriangleMesh, triangle_normal};
@@ -156,6 +156,18 @@ impl Light for AreaLight {
         Some(self.radiance * (sides * PI * self.area as f32))
     }
 
+    fn bounds(&self) -> Option<LightBounds> {
+        let corners = || (0..self.mesh.indices.len()).flat_map(|t| self.mesh.corners(t));
+        let (min, max) = corners()
+            .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)));
+        let bounds = LightBounds::new(min, max);
+        let bounds = match normals(&self.mesh) {
+            Some((axis, angle)) => bounds.with_normals(axis, angle),
+            None => bounds,
+        };
+        Some(if self.two_sided { bounds.with_two_sides() } else { bounds })
+    }
+
     fn sample_li_block(&self, receivers: &Receivers, samples: &mut LightSamples) {
         let precisely = |i: usize, samples: &mut LightSamples| {
             samples.set(i, self.sample_precisely(receivers.p(i), receivers.u(i)));
@@ -207,6 +219,17 @@ fn find_rectangle(mesh: &TriangleMesh, two_sided: bool) -> Option<Rectangle> {
         return None;
     }
     Rectangle::new([mesh.corners(0), mesh.corners(1)], first)
+}
+
+/// The mean direction of all outward normals, and the largest angle from it; `None` where both sides of a triangle are the outer
+/// one, or if there is no mean.
+fn normals(mesh: &TriangleMesh) -> Option<(Vec3, f64)> {
+    let of_triangles = || (0..mesh.indices.len()).map(|t| outward(mesh, t));
+    let sum = of_triangles().try_fold(DVec3::ZERO, |sum, n| Some(sum + n?.as_dvec3()))?;
+    let axis = sum.try_normalize()?.as_vec3();
+    // As 2 asin of half the distance, since the cosine of a small angle is 1.
+    let angle = |n: Vec3| 2.0 * (f64::from((n - axis).length()) / 2.0).min(1.0).asin();
+    Some((axis, of_triangles().flatten().map(angle).fold(0.0, f64::max)))
 }
 
 /// Unit outward normal of a triangle, if its vertex normals agree on the outer side.

@@ -17,6 +17,7 @@
 
 mod area;
 mod block;
+mod bounds;
 mod distant;
 mod environment;
 mod light_sampler;
@@ -27,9 +28,11 @@ mod sky;
 mod spot;
 mod strategy;
 mod traits;
+mod tree;
 
 pub use area::AreaLight;
 pub use block::{Emitted, EscapedRays, LightSamples, Receivers};
+pub use bounds::LightBounds;
 pub use distant::DistantLight;
 pub use environment::{EnvironmentError, EnvironmentLight, EnvironmentSettings};
 pub use light_sampler::{LightChoice, LightSampler};

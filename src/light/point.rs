@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{Vec2, Vec3};
 
 use super::block::{Incident, WideLight, sample_wide};
-use super::{BoundingSphere, Light, LightSample, LightSamples, Read, Receivers};
+use super::{BoundingSphere, Light, LightBounds, LightSample, LightSamples, Read, Receivers};
 use crate::geometry::Xyz;
 use crate::params::{Fault, Key, Kind, Table};
 use crate::simd::{Float, LaneMask};
@@ -39,6 +39,10 @@ impl Light for PointLight {
     /// 4π I.
     fn power(&self, _scene: &BoundingSphere) -> Option<Spectrum> {
         Some(self.intensity * (4.0 * std::f32::consts::PI))
+    }
+
+    fn bounds(&self) -> Option<LightBounds> {
+        Some(LightBounds::new(self.position, self.position))
     }
 
     fn sample_li_block(&self, receivers: &Receivers, samples: &mut LightSamples) {

@@ -1,12 +1,13 @@
 //! [`SpotLight`]: a point that shines into a cone.
 
 use std::f32::consts::TAU;
+use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
 use super::block::{Incident, WideLight, sample_wide};
-use super::{BoundingSphere, Light, LightSample, LightSamples, Read, Receivers};
+use super::{BoundingSphere, Light, LightBounds, LightSample, LightSamples, Read, Receivers};
 use crate::geometry::float::MAX_COORDINATE;
 use crate::geometry::{Xyz, unit};
 use crate::params::{Fault, Key, Kind, Table};
@@ -68,6 +69,15 @@ impl Light for SpotLight {
     /// has 1/2 in place of 1/5.
     fn power(&self, _scene: &BoundingSphere) -> Option<Spectrum> {
         Some(self.intensity * (TAU * (self.start + (self.cone - self.start) / 5.0)))
+    }
+
+    fn bounds(&self) -> Option<LightBounds> {
+        // From 1 - cos = 2 sin² of the half angle.
+        let angle = |height: f32| 2.0 * (f64::from(height) / 2.0).sqrt().min(1.0).asin();
+        let (cone, start) = (angle(self.cone), angle(self.start));
+        let normals = start.max(cone - FRAC_PI_2);
+        let bounds = LightBounds::new(self.position, self.position);
+        Some(bounds.with_emission(self.axis, normals, cone - normals))
     }
 
     fn sample_li_block(&self, receivers: &Receivers, samples: &mut LightSamples) {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{Vec2, Vec3};
 
 use super::block::{Emitted, EscapedRays, LightSamples, Receivers};
+use super::bounds::LightBounds;
 use super::sample::{LightHit, LightSample};
 use crate::params::{Fault, Table};
 use crate::spectrum::Spectrum;
@@ -95,6 +96,12 @@ pub trait Light: Send + Sync {
         None
     }
 
+    /// Where the light is and which way it shines, so that hits far away or behind it select it less often where there are many
+    /// lights. `None` for a light that is at an infinite distance or unknown, which is selected by power alone.
+    fn bounds(&self) -> Option<LightBounds> {
+        None
+    }
+
     /// Sets [`sample_li`](Light::sample_li) of each of a block of points where it is not `None`. The provided method is compiled for
     /// each light, so that a block costs one call through a pointer. A light that is faster for several points at a time overrides
     /// this, with bit-identical results.
@@ -154,6 +161,10 @@ macro_rules! shared {
 
             fn power(&self, scene: &BoundingSphere) -> Option<Spectrum> {
                 (**self).power(scene)
+            }
+
+            fn bounds(&self) -> Option<LightBounds> {
+                (**self).bounds()
             }
 
             fn sample_li_block(&self, receivers: &Receivers, samples: &mut LightSamples) {

@@ -1,6 +1,8 @@
 //! Scenes, samplers and a filter shared by several tests.
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 
+pub mod hall;
+
 use std::sync::Arc;
 
 use lobe::film::Filter;

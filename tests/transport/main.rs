@@ -13,6 +13,7 @@ mod dimensions;
 mod environment;
 mod estimators;
 mod film_error;
+mod many_lights;
 mod random_scenes;
 mod roulette;
 mod scale;

@@ -29,7 +29,7 @@ pub fn for_each_escaped(
         set.run_block(Gather { len, path: &path, paths, block: &mut block });
         block.found = Rows::splat(0.0);
         for &light in &rules.infinite {
-            let weighting = rules.weighting(light);
+            let weighting = rules.weighting_from_anywhere(light);
             let needs_pdf = weighting.needs_pdf() && !paths.at_camera;
             let Escaped { origin, wi, .. } = &block;
             emitted.clear();

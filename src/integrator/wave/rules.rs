@@ -4,6 +4,8 @@
 //! with a single light, none is selected; and at the last vertex no direction is sampled unless light found there
 //! counts.
 
+use glam::Vec3;
+
 use crate::light::{LightChoice, LightSampler, LightStrategy};
 use crate::scene::Scene;
 use crate::simd::Float;
@@ -97,11 +99,30 @@ impl PathRules {
         self.counts_bsdf_samples && self.visible[light]
     }
 
-    /// Whether the paths that find this light are weighted against light sampling, and the probability of sampling it.
+    /// Whether paths that leave `p` and find this light are weighted against light sampling, and the probability of sampling it
+    /// there.
     #[inline]
-    pub fn weighting(&self, light: usize) -> Weighting {
-        let probability = self.lights.probability(light);
-        Weighting { counts_bsdf_samples: self.counts_bsdf_samples, probability }
+    pub fn weighting(&self, light: usize, p: Vec3) -> Weighting {
+        let counts_bsdf_samples = self.counts_bsdf_samples;
+        let is_sampled = self.lights.is_sampled(light);
+        // A tree is not walked for a light that no path is weighted against.
+        let probability = if counts_bsdf_samples { self.lights.probability(light, p) } else { 0.0 };
+        Weighting { counts_bsdf_samples, is_sampled, probability }
+    }
+
+    /// The [`weighting`](Self::weighting) of a light that surrounds the scene, which is sampled alike everywhere.
+    #[inline]
+    pub fn weighting_from_anywhere(&self, light: usize) -> Weighting {
+        self.weighting(light, Vec3::ZERO)
+    }
+
+    /// The [`weighting`](Self::weighting) for paths whose direction light sampling cannot find: from the camera or from delta
+    /// events.
+    #[inline]
+    pub fn weighting_found_only(&self, light: usize) -> Weighting {
+        let (counts_bsdf_samples, is_sampled) =
+            (self.counts_bsdf_samples, self.lights.is_sampled(light));
+        Weighting { counts_bsdf_samples, is_sampled, probability: 0.0 }
     }
 }
 
@@ -109,6 +130,7 @@ impl PathRules {
 #[derive(Clone, Copy)]
 pub struct Weighting {
     counts_bsdf_samples: bool,
+    is_sampled: bool,
     probability: f32,
 }
 
@@ -116,7 +138,7 @@ impl Weighting {
     /// Whether weights depend on the densities of light sampling.
     #[inline]
     pub fn needs_pdf(self) -> bool {
-        self.counts_bsdf_samples && self.probability > 0.0
+        self.counts_bsdf_samples && self.is_sampled
     }
 
     /// The weight of light that a path finds, from the densities with which the path and the light sample the direction.
@@ -125,7 +147,7 @@ impl Weighting {
         let found_only = path_pdf.eq(F::splat(f32::INFINITY));
         // Light sampling cannot find paths from the camera or from delta events.
         let (zero, one) = (F::splat(0.0), F::splat(1.0));
-        if self.probability == 0.0 {
+        if !self.is_sampled {
             one
         } else if self.counts_bsdf_samples {
             let weight = power_heuristic(path_pdf, F::splat(self.probability) * light_pdf);

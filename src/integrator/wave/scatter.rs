@@ -2,7 +2,7 @@
 
 use arrayvec::ArrayVec;
 use bytemuck::Zeroable;
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 use super::dimension;
 use super::paths::{Path, PathList, PathsAt, PathsWide, Values};
@@ -110,7 +110,7 @@ impl<'a> Vertices<'a> {
         if rules.lights.draws() {
             self.sample_drawn_lights();
         } else {
-            let light = rules.lights.pick(slot, 0.0);
+            let (light, _) = rules.lights.pick(slot, Vec3::ZERO, 0.0);
             self.is_weighed = Row::splat(f32::from(rules.uses_mis(light)));
             let receivers = Receivers {
                 instruction_set: scene.instruction_set(),
@@ -143,17 +143,29 @@ impl<'a> Vertices<'a> {
     /// Samples the light that each vertex selects: all vertices with the same light together.
     fn sample_drawn_lights(&mut self) {
         let Stage { rules, scene, values, .. } = self.stage;
-        let mut drawn = [0; ROW];
-        for (light, &vertex) in drawn.iter_mut().zip(&self.vertices[..self.len]) {
-            *light = rules.lights.pick(0, values.choice[vertex as usize]);
+        let (mut drawn, mut probability) = ([0; ROW], [0.0; ROW]);
+        for (i, &vertex) in self.vertices[..self.len].iter().enumerate() {
+            let (p, u) = (self.hits.p().get(i).into(), values.choice[vertex as usize]);
+            (drawn[i], probability[i]) = rules.lights.pick(0, p, u);
+            let weighed = rules.uses_mis(drawn[i]);
+            self.is_weighed.set(i, f32::from(weighed));
         }
         let mut left = RowMask::MAX >> (ROW - self.len);
         let (mut p, mut u) = (Rows::splat(0.0), [Vec2::ZERO; ROW]);
         let mut samples = LightSamples::zeroed();
         while left != 0 {
-            let light = drawn[left.trailing_zeros() as usize];
+            let first = left.trailing_zeros() as usize;
+            let light = drawn[first];
             let same =
-                (0..self.len).fold(0, |same, i| same | RowMask::from(drawn[i] == light) << i);
+                indices(left).fold(0, |same, i| same | RowMask::from(drawn[i] == light) << i);
+            left &= !same;
+            let light = &scene.lights()[light];
+            if same.is_power_of_two() {
+                // The only one, as are most among many lights.
+                let sample = light.sample_li(self.hits.p().get(first).into(), self.light_u[first]);
+                self.lights.set_drawn(first, sample, probability[first]);
+                continue;
+            }
             for (to, from) in indices(same).enumerate() {
                 p.set(to, self.hits.p().get(from));
                 u[to] = self.light_u[from];
@@ -161,13 +173,10 @@ impl<'a> Vertices<'a> {
             let (instruction_set, len) = (scene.instruction_set(), same.count_ones() as usize);
             let receivers = Receivers { instruction_set, len, p: &p, u: &u };
             samples.clear();
-            scene.lights()[light].sample_li_block(&receivers, &mut samples);
-            let probability = rules.lights.probability(light);
+            light.sample_li_block(&receivers, &mut samples);
             for (from, to) in indices(same).enumerate() {
-                self.lights.copy(to, &samples, from, probability);
-                self.is_weighed.set(to, f32::from(rules.uses_mis(light)));
+                self.lights.copy(to, &samples, from, probability[to]);
             }
-            left &= !same;
         }
     }
 

@@ -55,11 +55,11 @@ fn every_light_is_drawn() {
         let mut drawn = vec![0_u32; told.len()];
         let trials = 40_000;
         for i in 0..trials {
-            drawn[sampler.pick(0, (i as f32 + 0.5) / trials as f32)] += 1;
+            drawn[sampler.pick(0, Vec3::ZERO, (i as f32 + 0.5) / trials as f32).0] += 1;
         }
         for (light, share) in by_power.iter().enumerate() {
             let expected = 0.9 * share + 0.1 / count;
-            let told = sampler.probability(light);
+            let told = sampler.probability(light, Vec3::ZERO);
             assert!((told - expected).abs() < 1e-5, "case {case}, light {light}: {told}");
             let seen = drawn[light] as f32 / trials as f32;
             assert!((seen - expected).abs() < 2e-4, "case {case}, light {light}: {seen}");
@@ -78,7 +78,8 @@ fn all_lights_are_sampled_without_a_choice() {
         assert!(!sampler.draws());
         assert_eq!(sampler.slots(), told.len());
         for light in 0..told.len() {
-            assert_eq!((sampler.pick(light, 0.7), sampler.probability(light)), (light, 1.0));
+            assert_eq!(sampler.pick(light, Vec3::ZERO, 0.7), (light, 1.0));
+            assert_eq!(sampler.probability(light, Vec3::ZERO), 1.0);
         }
     }
 }
@@ -94,10 +95,10 @@ fn indices_are_those_of_the_scene() {
         .collect();
     let sampler =
         LightSampler::new(&lights, vec![1, 3], LightChoice::One, &BoundingSphere::default());
-    assert_eq!([0, 2].map(|light| sampler.probability(light)), [0.0; 2]);
-    assert!((sampler.probability(3) - (0.9 * 0.75 + 0.05)).abs() < 1e-6);
+    assert_eq!([0, 2].map(|light| sampler.probability(light, Vec3::ZERO)), [0.0; 2]);
+    assert!((sampler.probability(3, Vec3::ZERO) - (0.9 * 0.75 + 0.05)).abs() < 1e-6);
     let mut rng = Rng::new(340, 0);
     for _ in 0..1000 {
-        assert!([1, 3].contains(&sampler.pick(0, rng.f32())));
+        assert!([1, 3].contains(&sampler.pick(0, Vec3::ZERO, rng.f32()).0));
     }
 }

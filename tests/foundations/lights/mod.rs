@@ -9,6 +9,7 @@ mod point;
 mod shadow;
 mod spot;
 mod surroundings;
+mod tree;
 
 use lobe::accel::Accel;
 use lobe::geometry::Ray;
