@@ -121,12 +121,6 @@ impl LightSamples {
         self.t_max.set(to, other.t_max.get(from));
     }
 
-    /// Sets a sample that was drawn with a probability besides its density.
-    #[inline]
-    pub(crate) fn set_drawn(&mut self, i: usize, sample: Option<LightSample>, probability: f32) {
-        self.set(i, sample.map(|sample| LightSample { pdf: sample.pdf * probability, ..sample }));
-    }
-
     /// The samples in the lanes from `at` on.
     #[inline(always)]
     fn store<F: Block>(&mut self, at: usize, sample: Incident<F>) {

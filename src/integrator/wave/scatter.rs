@@ -154,18 +154,11 @@ impl<'a> Vertices<'a> {
         let (mut p, mut u) = (Rows::splat(0.0), [Vec2::ZERO; ROW]);
         let mut samples = LightSamples::zeroed();
         while left != 0 {
-            let first = left.trailing_zeros() as usize;
-            let light = drawn[first];
+            let light = drawn[left.trailing_zeros() as usize];
             let same =
                 indices(left).fold(0, |same, i| same | RowMask::from(drawn[i] == light) << i);
             left &= !same;
             let light = &scene.lights()[light];
-            if same.is_power_of_two() {
-                // The only one, as are most among many lights.
-                let sample = light.sample_li(self.hits.p().get(first).into(), self.light_u[first]);
-                self.lights.set_drawn(first, sample, probability[first]);
-                continue;
-            }
             for (to, from) in indices(same).enumerate() {
                 p.set(to, self.hits.p().get(from));
                 u[to] = self.light_u[from];
