@@ -15,7 +15,7 @@ use crate::sampling::Discrete;
 pub enum LightChoice {
     /// All of them.
     All,
-    /// One, selected by power.
+    /// One, selected by power, or by what arrives from each if there are many.
     One,
 }
 
