@@ -5,6 +5,6 @@ mod folders;
 mod framing;
 mod projection;
 #[path = "../foundations/common/rng.rs"]
-#[allow(dead_code)]
+#[allow(dead_code, reason = "each test binary uses a part of it")]
 mod rng;
 mod scenes;
