@@ -23,7 +23,7 @@ use lobe::light::{
 };
 use lobe::material::{DetailedMaterial, Material, MetalMaterial, PlasticMaterial, Roughness, bump};
 use lobe::scene::{Emission, SceneBuilder};
-use lobe::texture::{Curve, ImageTexture, Mapping, Projection, Texels, Texture};
+use lobe::texture::{Channel, Curve, ImageTexture, Mapping, Projection, Texels, Texture};
 use lobe::{
     FilmSettings, MatteMaterial, PointLight, RenderOptions, Scene, Spectrum, TriangleMesh, View,
     render,
@@ -551,6 +551,13 @@ fn images_change_no_bit() {
                 in_blocks == of(Arc::new(MatteMaterial::new(single.clone()))),
                 "{integrator:?}"
             );
+            // One of its bands as a roughness.
+            let numbers = image.clone().channel(Channel::Blue);
+            let one = numbers.clone();
+            let single = move |si: &SurfaceInteraction| one.evaluate(si);
+            let coat = |roughness| PlasticMaterial::new([0.5; 3], 1.5).with_roughness(roughness);
+            let in_blocks = of(Arc::new(coat(Roughness::alpha(numbers))));
+            assert!(in_blocks == of(Arc::new(coat(Roughness::alpha(single)))), "{integrator:?}");
         }
     }
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::{UVec2, Vec2};
 
+use super::channel::{Channel, OfChannel};
 use super::mapping::{self, Mapping};
 use super::texels::{Curve, Texels};
 use super::wrap::Wrap;
@@ -95,7 +96,7 @@ impl ImageTexture {
 
     /// Numbers from one channel.
     pub fn channel(self, channel: Channel) -> impl Texture<f32> + Clone + use<> {
-        OfChannel { image: self, channel }
+        OfChannel { colors: self, channel }
     }
 
     /// Chooses what stands for many pixels that fall into one of the picture.
@@ -246,44 +247,6 @@ impl Texture<Spectrum> for ImageTexture {
         for (place, value) in places.iter().zip(values) {
             *value = place.value(&self.texels);
         }
-    }
-}
-
-/// What of a colour is a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Channel {
-    /// The red band.
-    Red,
-    /// The green band.
-    Green,
-    /// The blue band.
-    Blue,
-    /// The luminance of Rec. 709.
-    Luminance,
-}
-
-impl Channel {
-    #[inline]
-    fn of(self, color: Spectrum) -> f32 {
-        let [r, g, b] = color.to_array();
-        match self {
-            Self::Red => r,
-            Self::Green => g,
-            Self::Blue => b,
-            Self::Luminance => color.luminance(),
-        }
-    }
-}
-
-#[derive(Clone)]
-struct OfChannel {
-    image: ImageTexture,
-    channel: Channel,
-}
-
-impl Texture<f32> for OfChannel {
-    fn evaluate(&self, si: &SurfaceInteraction) -> f32 {
-        self.channel.of(self.image.evaluate(si))
     }
 }
 

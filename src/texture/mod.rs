@@ -1,5 +1,6 @@
 //! Textures: values that may vary over a surface.
 
+mod channel;
 mod checkerboard;
 mod constant;
 mod image;
@@ -12,9 +13,10 @@ mod traits;
 mod value;
 mod wrap;
 
+pub use channel::Channel;
 pub use checkerboard::CheckerboardTexture;
 pub use constant::ConstantTexture;
-pub use image::{Channel, ImageTexture, Magnification, Minification};
+pub use image::{ImageTexture, Magnification, Minification};
 pub use mapping::{Mapping, Projection};
 pub use mix::MixTexture;
 pub use product::ProductTexture;
