@@ -505,6 +505,8 @@ fn glossy() -> Vec<Arc<dyn Material>> {
         Arc::new(gold().with_roughness(Roughness::alpha(waves))),
         Arc::new(gold().with_roughness(Roughness::alpha(in_part))),
         Arc::new(gold().with_roughness(Roughness::alpha(0.3).across(0.1))),
+        // Other Fresnel equations from stripe to stripe.
+        Arc::new(MetalMaterial::reflecting(stripes).with_roughness(Roughness::alpha(0.3))),
         Arc::new(MetalMaterial::reflecting(Spectrum::WHITE).with_roughness(Roughness::alpha(1.0))),
     ]
 }
