@@ -14,7 +14,7 @@ use lobe::glam::{UVec2, Vec2, Vec3};
 use lobe::integrator::{DirectIntegrator, Estimator, Integrator, PathIntegrator, Wave};
 use lobe::interaction::{Shading, SurfaceInteraction};
 use lobe::light::{BoundingSphere, DistantLight, Light, LightSample, SkyLight};
-use lobe::material::Material;
+use lobe::material::{Material, MetalMaterial, PlasticMaterial, Roughness};
 use lobe::render::{RenderError, Rendered, SamplerSettings, Sampling, SettingsError, render_with};
 use lobe::sampling::{IndependentSampler, Sampler, SamplerKind, SobolSampler};
 use lobe::scene::SceneBuilder;
@@ -169,6 +169,52 @@ fn layers_hold_the_first_hits() {
         assert!(found > near && found < far, "pixel {corner}: {found} outside {near}..{far}");
         assert_eq!(layers.normal[place as usize], Vec3::Y, "pixel {corner}");
         assert_eq!(layers.albedo[place as usize].to_array(), [0.2, 0.3, 0.9], "pixel {corner}");
+    }
+}
+
+/// The albedo of a glossy surface is what it returns of a sky of radiance 1: means over the picture agree within 4.5 standard errors
+/// (significance 7e-6 a band), which are below 1.5e-3, and no pixel is off by 0.1 at 128 samples. Caught: the same directions for all
+/// samples of a pixel; an event chosen by a value of its direction.
+#[test]
+fn albedo_is_what_a_sky_shows() {
+    let copper = MetalMaterial::new([0.362, 1.015, 1.247].into(), [3.127, 2.579, 2.453].into());
+    let plastic = PlasticMaterial::new(Spectrum::new(0.2, 0.5, 0.8), 1.5);
+    let materials: [Arc<dyn Material>; 2] = [
+        Arc::new(copper.with_roughness(Roughness::alpha(0.4))),
+        Arc::new(plastic.with_roughness(Roughness::alpha(0.3))),
+    ];
+    for (trial, material) in materials.into_iter().enumerate() {
+        let scene = Scene::builder()
+            .material("floor", material)
+            .shape("floor", floor(-2.0, 6.0), "floor")
+            .light(SkyLight::new(Spectrum::splat(1.0)));
+        let scene = scene.build().unwrap();
+        let with = |spp, layers| {
+            let integrator = DirectIntegrator::default();
+            let settings = RenderSettings::new(
+                SamplerSettings { spp, ..SamplerSettings::default() },
+                integrator,
+            );
+            let options = RenderOptions { layers, ..RenderOptions::default() };
+            render(&scene, &from_above(), &settings, &options).unwrap().picture
+        };
+        let (truth, layers) = (with(1024, false).color, with(128, true).layers.unwrap());
+        for band in 0..3 {
+            let differences = truth.iter().zip(&layers.albedo).map(|(truth, albedo)| {
+                f64::from(albedo.to_array()[band]) - f64::from(truth.to_array()[band])
+            });
+            let differences: Vec<f64> = differences.collect();
+            let n = differences.len() as f64;
+            let mean = differences.iter().sum::<f64>() / n;
+            let variance = differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0);
+            let error = (variance / n).sqrt();
+            assert!(error < 1.5e-3, "{trial}, band {band}: standard error {error}");
+            assert!(
+                mean.abs() < 4.5 * error,
+                "{trial}, band {band}: {mean}, standard error {error}"
+            );
+            assert!(differences.iter().all(|d| d.abs() < 0.1), "{trial}, band {band}");
+        }
     }
 }
 

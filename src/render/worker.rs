@@ -1,6 +1,6 @@
 //! [`Worker`]: one thread's share of the rendering.
 
-use glam::{UVec2, Vec2};
+use glam::UVec2;
 
 use super::options::RenderError;
 use super::pass::Pass;
@@ -8,7 +8,7 @@ use super::samples::Samples;
 use crate::bxdf::BxdfFlags;
 use crate::film::Film;
 use crate::image::Window;
-use crate::integrator::{Counters, Wave};
+use crate::integrator::{Counters, Wave, dimension};
 use crate::sampling::SampleId;
 
 /// How many samples go through the integrator together: enough for batches to pay, few enough for
@@ -16,9 +16,6 @@ use crate::sampling::SampleId;
 const fn wave(materials: usize) -> usize {
     if materials > 8 { 4096 } else { 1024 }
 }
-
-/// How many points estimate a reflectance that has no closed form.
-const RHO_POINTS: usize = 16;
 
 /// Renders tiles. It allocates when it is made and not afterwards, except that the arena for lobes of other crates
 /// grows until it has met the hit that needs most.
@@ -30,8 +27,6 @@ pub struct Worker<'a> {
     /// How many samples of the wave in a row are of one set.
     runs: Vec<usize>,
     tile: Film,
-    rho_choices: [f32; RHO_POINTS],
-    rho_points: [Vec2; RHO_POINTS],
 }
 
 impl<'a> Worker<'a> {
@@ -52,9 +47,7 @@ impl<'a> Worker<'a> {
             return Err(RenderError::OutOfMemory(bytes as u64));
         }
         let wave = Wave::with_capacity(samples, shadow_rays, materials, cancelled);
-        let rho_choices = std::array::from_fn(|i| (i as f32 * 0.754_877_7).fract());
-        let (runs, rho_points) = (Vec::with_capacity(samples), lattice());
-        Ok(Self { pass, samples, wave, runs, tile, rho_choices, rho_points })
+        Ok(Self { pass, samples, wave, runs: Vec::with_capacity(samples), tile })
     }
 
     /// Renders the samples of the pass in a tile, wave by wave, and returns whether it took them all: once the render is
@@ -102,17 +95,18 @@ impl<'a> Worker<'a> {
     }
 
     /// Adds normal, depth and albedo of what the camera rays hit. It shades every hit once more, which
-    /// only a render with layers pays for.
+    /// only a render with layers pays for. An albedo without closed form is estimated by one direction of each sample.
     fn add_first_hits(&mut self) {
-        let (scene, wave) = (self.pass.scene, &mut self.wave);
+        let (&Pass { scene, sampler, .. }, wave) = (self.pass, &mut self.wave);
         for ((id, ray), hit) in wave.ids.iter().zip(&wave.rays).zip(&wave.hits) {
             if !hit.is_hit() {
                 continue;
             }
             let mut si = scene.interaction(ray, hit);
             let bsdf = scene.bsdf(hit, &mut si, &wave.arena);
-            let (uc, u) = (&self.rho_choices, &self.rho_points);
-            let albedo = bsdf.rho_hd(si.wo(), uc, u, BxdfFlags::all());
+            let uc = sampler.get_1d(*id, dimension::ALBEDO_EVENT);
+            let u = sampler.get_2d(*id, dimension::ALBEDO);
+            let albedo = bsdf.rho_hd(si.wo(), &[uc], &[u], BxdfFlags::all());
             wave.counters.rejected += u64::from(bsdf.rejected());
             self.tile.add_first_hit(id.pixel, bsdf.frame().n, hit.t, albedo);
         }
@@ -123,12 +117,4 @@ impl<'a> Worker<'a> {
 /// Whether this number of bytes could be allocated.
 pub fn is_available(bytes: usize) -> bool {
     Vec::<u8>::new().try_reserve_exact(bytes).is_ok()
-}
-
-/// A rank-1 lattice with the golden ratio as its step.
-fn lattice() -> [Vec2; RHO_POINTS] {
-    std::array::from_fn(|i| {
-        let x = (i as f32 + 0.5) / RHO_POINTS as f32;
-        Vec2::new(x, (i as f32 * 0.618_034).fract())
-    })
 }

@@ -29,3 +29,8 @@ pub(crate) const fn event(depth: u32) -> u32 {
 pub(crate) const fn of_depth(depth: u32) -> u32 {
     FIRST_LIGHT.wrapping_add(depth.wrapping_mul(4))
 }
+
+/// Selection among events for the albedo of a first hit, 1D.
+pub(crate) const ALBEDO_EVENT: u32 = 1 << 30;
+/// Direction for the albedo of a first hit, 2D.
+pub(crate) const ALBEDO: u32 = 1 << 30 | 1;
