@@ -14,10 +14,10 @@ pub use crate::simd::{InstructionSet, InstructionSetError};
 pub use tree::Aabb;
 
 use crate::geometry::Ray;
-use crate::shape::TriangleMesh;
+use crate::shape::{Instance, TriangleMesh};
 use crate::simd::Kernel;
-use trace::{AnyHit, Batch, ClosestHit, Stack, Start};
-use tree::{Bvh, MAX_TRIANGLES};
+use trace::{AnyHit, Batch, ClosestHit, InForest, Stack, Start, World};
+use tree::{Bvh, Forest, MAX_TRIANGLES};
 
 /// The triangles of a scene in a bounding volume hierarchy (BVH), which answers what rays hit.
 ///
@@ -59,13 +59,18 @@ use tree::{Bvh, MAX_TRIANGLES};
 #[doc(alias = "acceleration structure")]
 #[derive(Clone, Debug)]
 pub struct Accel {
+    /// Over all meshes without instances.
     bvh: Bvh,
+    /// Over those with instances, if there are any.
+    forest: Option<Box<Forest>>,
     instruction_set: InstructionSet,
 }
 
 impl Accel {
     /// Maximum number of triangles.
     pub const MAX_TRIANGLES: usize = MAX_TRIANGLES;
+    /// Maximum number of instances.
+    pub const MAX_INSTANCES: usize = 500_000;
 
     /// Builds the tree over all triangles of all meshes, for the fastest instruction set, on as many threads as the
     /// system offers. The tree does not depend on their number. Triangles without area are left out: no ray can hit
@@ -83,35 +88,62 @@ impl Accel {
     /// # Panics
     /// If there are more than [`Accel::MAX_TRIANGLES`].
     pub fn build_for(instruction_set: InstructionSet, meshes: &[TriangleMesh]) -> Self {
+        Self::build_with_instances(instruction_set, meshes, &[])
+    }
+
+    /// As [`Accel::build_for`], with instances of meshes. A mesh that has any is kept once, in a tree of its own, and each instance costs no more
+    /// than its place. Hits on instances are those on the mesh with its [transform](TriangleMesh::transform), to the bit; their shape counts on from the last mesh.
+    ///
+    /// # Panics
+    /// If there are more triangles than [`Accel::MAX_TRIANGLES`], not counting instances, or more instances than [`Accel::MAX_INSTANCES`], or one refers to a mesh that there is not.
+    pub fn build_with_instances(
+        instruction_set: InstructionSet,
+        meshes: &[TriangleMesh],
+        instances: &[Instance],
+    ) -> Self {
         let count: usize = meshes.iter().map(|mesh| mesh.indices.len()).sum();
         assert!(count <= Self::MAX_TRIANGLES, "{count} triangles are more than a tree can hold");
-        let bvh = build::build(meshes, build::available_threads(), instruction_set.leaf_lanes());
-        Self { bvh, instruction_set }
+        let (max, found) = (Self::MAX_INSTANCES, instances.len());
+        assert!(found <= max, "{found} instances are more than a tree can hold");
+        let (nothing, leaf_lanes) = (TriangleMesh::default(), instruction_set.leaf_lanes());
+        let mut in_place: Vec<&TriangleMesh> = meshes.iter().collect();
+        instances.iter().for_each(|instance| in_place[instance.mesh as usize] = &nothing);
+        let bvh = build::build(&in_place, build::available_threads(), leaf_lanes);
+        let forest = (!instances.is_empty())
+            .then(|| Box::new(build::build_forest(meshes, instances, leaf_lanes)));
+        Self { bvh, forest, instruction_set }
     }
 
     /// The box around all triangles.
     pub fn bounds(&self) -> Aabb {
-        self.bvh.bounds
+        self.forest.iter().fold(self.bvh.bounds, |bounds, forest| bounds.union(forest.bounds))
     }
 
-    /// Number of triangles that can be hit.
+    /// Number of triangles that can be hit, those of instances not counted.
     pub fn triangle_count(&self) -> usize {
-        self.bvh.leaves.triangle_count()
+        self.trees().map(|tree| tree.leaves.triangle_count()).sum()
     }
 
-    /// Number of nodes of the tree.
+    /// Number of nodes of all trees.
     pub fn node_count(&self) -> usize {
-        self.bvh.nodes.len()
+        let above = self.forest.as_ref().map_or(0, |forest| forest.nodes.len());
+        self.trees().map(|tree| tree.nodes.len()).sum::<usize>() + above
     }
 
     /// Most nodes on the way from the root to a leaf.
     pub fn depth(&self) -> usize {
-        self.bvh.depth
+        let below = |forest: &Forest| forest.trees.iter().map(|tree| tree.depth).max().unwrap_or(0);
+        let of_forest = self.forest.as_ref().map_or(0, |forest| forest.depth + below(forest));
+        self.bvh.depth.max(of_forest)
     }
 
-    /// Bytes of the tree, with its copy of the triangles.
+    /// Bytes of the trees, with their copies of the triangles.
     pub fn memory(&self) -> usize {
-        self.bvh.memory()
+        self.bvh.memory() + self.forest.as_ref().map_or(0, |forest| forest.memory())
+    }
+
+    fn trees(&self) -> impl Iterator<Item = &Bvh> {
+        std::iter::once(&self.bvh).chain(self.forest.iter().flat_map(|forest| &forest.trees))
     }
 
     /// The instruction set that rays are traced with.
@@ -132,7 +164,10 @@ impl Accel {
     /// If `hits` is not as long as `rays`.
     pub fn intersect(&self, rays: &[Ray], hits: &mut [Hit]) {
         assert_eq!(rays.len(), hits.len());
-        self.run(Batch { answers: hits }, rays);
+        self.run(&self.bvh, Batch { answers: hits }, rays);
+        if let Some(forest) = &self.forest {
+            self.run(&**forest, InForest { answers: hits }, rays);
+        }
     }
 
     /// Whether each ray hits anything.
@@ -141,25 +176,40 @@ impl Accel {
     /// If `occluded` is not as long as `rays`.
     pub fn occluded(&self, rays: &[Ray], occluded: &mut [bool]) {
         assert_eq!(rays.len(), occluded.len());
-        self.run(Batch { answers: occluded }, rays);
+        self.run(&self.bvh, Batch { answers: occluded }, rays);
+        if let Some(forest) = &self.forest {
+            self.run(&**forest, InForest { answers: occluded }, rays);
+        }
     }
 
     /// The closest hit of one ray. Of triangles at the same distance, the first counts.
     pub fn intersect1(&self, ray: &Ray) -> Hit {
-        Hit::from_found(&self.bvh, self.run(ClosestHit(Start::ROOT), ray))
+        let found = self.run(&self.bvh, ClosestHit(World, Start::ROOT), ray);
+        let mut hit = Hit::from_found(&self.bvh, found);
+        if let Some(forest) = &self.forest {
+            let answers = std::slice::from_mut(&mut hit);
+            self.run(&**forest, InForest { answers }, std::slice::from_ref(ray));
+        }
+        hit
     }
 
     /// Whether one ray hits anything.
     pub fn occluded1(&self, ray: &Ray) -> bool {
-        self.run(AnyHit(Start::ROOT), ray)
+        let mut occluded = self.run(&self.bvh, AnyHit(World, Start::ROOT), ray);
+        if let Some(forest) = &self.forest {
+            let answers = std::slice::from_mut(&mut occluded);
+            self.run(&**forest, InForest { answers }, std::slice::from_ref(ray));
+        }
+        occluded
     }
 
     #[inline(always)]
-    fn run<K: Kernel<Data = Bvh, Scratch = Stack>>(
+    fn run<K: Kernel<Scratch = Stack>>(
         &self,
+        data: &K::Data,
         kernel: K,
         input: &K::Input,
     ) -> K::Output {
-        Stack::with(|stack| self.instruction_set.run(&self.bvh, stack, input, kernel))
+        Stack::with(|stack| self.instruction_set.run(data, stack, input, kernel))
     }
 }

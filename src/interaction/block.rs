@@ -2,6 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
+use super::surfaces::{LastVertex, Surfaces};
 use super::{Hit, Source, SurfaceInteraction, SurfacePlace, oriented, uv_at};
 use crate::geometry::{Bounded, BoundedPoint, PixelCone, Ray, Xyz};
 use crate::shape::{TriangleMesh, triangle_normal_wide};
@@ -16,8 +17,7 @@ pub const BLOCK: usize = ROW;
 /// A block of hits, each of which is what [`SurfaceInteraction`] is. Kinds of materials and textures that answer for a block
 /// get one.
 pub struct HitBlock<'a> {
-    meshes: &'a [TriangleMesh],
-    last_vertices: &'a [LastVertex],
+    surfaces: &'a Surfaces,
     cone: Option<&'a PixelCone>,
     pub(crate) instruction_set: InstructionSet,
     len: usize,
@@ -39,17 +39,15 @@ pub(crate) struct Hits<F> {
 }
 
 impl<'a> HitBlock<'a> {
-    /// An empty block of hits on these meshes, seen by a camera, to be processed with these instructions.
+    /// An empty block of hits on these surfaces, seen by a camera, to be processed with these instructions.
     pub(crate) fn new(
-        meshes: &'a [TriangleMesh],
-        last_vertices: &'a [LastVertex],
+        surfaces: &'a Surfaces,
         cone: Option<&'a PixelCone>,
         instruction_set: InstructionSet,
     ) -> Self {
         let zero = Rows::splat(0.0);
         Self {
-            meshes,
-            last_vertices,
+            surfaces,
             cone,
             instruction_set,
             len: 0,
@@ -74,8 +72,14 @@ impl<'a> HitBlock<'a> {
             let Hit { shape, triangle, .. } = found[i as usize];
             *place = [shape, triangle];
         }
-        let imprecise = self.instruction_set.run_block(Locate { block: self, which, rays, found });
-        for i in indices(imprecise) {
+        let mut one_by_one =
+            self.instruction_set.run_block(Locate { block: self, which, rays, found });
+        if self.surfaces.has_instances() {
+            for (i, [shape, _]) in self.places[..self.len].iter().enumerate() {
+                one_by_one |= RowMask::from(self.surfaces.is_instance(*shape)) << i;
+            }
+        }
+        for i in indices(one_by_one) {
             self.locate_one(i);
         }
     }
@@ -105,7 +109,7 @@ impl<'a> HitBlock<'a> {
             wo: self.wo.get(i).into(),
             n: self.n.get(i).into(),
             shading_n: self.shading_n.get(i).into(),
-            source: Source::Triangle { mesh: &self.meshes[place.shape as usize], place },
+            source: Source::Triangle { mesh: self.surfaces.placed(place.shape), place },
             cone: self.cone,
             displaced: None,
         }
@@ -119,7 +123,7 @@ impl<'a> HitBlock<'a> {
     pub fn uv(&self, i: usize) -> Vec2 {
         assert!(i < self.len, "hit {i} of {}", self.len);
         let SurfacePlace { shape, triangle, b } = self.place(i);
-        uv_at(&self.meshes[shape as usize], triangle, b)
+        uv_at(self.surfaces.placed(shape), triangle, b)
     }
 
     #[inline]
@@ -162,12 +166,13 @@ impl<'a> HitBlock<'a> {
         }
     }
 
-    /// Computes the normals of one hit, where f32 is not precise enough.
-    #[cold]
+    /// Computes the geometry of one hit: where f32 is not precise enough for normals, and on instances.
     fn locate_one(&mut self, i: usize) {
         let place = self.place(i);
-        let mesh = &self.meshes[place.shape as usize];
+        let mesh = self.surfaces.placed(place.shape);
         let si = SurfaceInteraction::on_shape(mesh, place, self.wo(i));
+        self.p.set(i, si.p.p.to_array());
+        self.p_error.set(i, si.p.error.to_array());
         self.n.set(i, si.n.to_array());
         self.shading_n.set(i, si.shading_n.to_array());
     }
@@ -187,11 +192,9 @@ impl BlockKernel for Locate<'_, '_> {
     #[inline(always)]
     fn run<F: Block>(self) -> RowMask {
         let Self { block, which, rays, found } = self;
-        let HitBlock {
-            meshes, last_vertices, len, places, b, wo, p, p_error, n, shading_n, ..
-        } = block;
+        let HitBlock { surfaces, len, places, b, wo, p, p_error, n, shading_n, .. } = block;
         let last = *len - 1;
-        let mut of_shape = (places[0][0], Vertices::of(meshes, last_vertices, places[0][0]));
+        let mut of_shape = (places[0][0], Vertices::of(surfaces, places[0][0]));
         let mut imprecise = 0;
         for at in groups::<F>(*len) {
             // Vertices of each corner, and their normals.
@@ -202,7 +205,7 @@ impl BlockKernel for Locate<'_, '_> {
                 let [shape, triangle] = places[(at + lane).min(last)];
                 // Most neighbours are on the same shape, whose slices stay in registers.
                 if shape != of_shape.0 {
-                    of_shape = (shape, Vertices::of(meshes, last_vertices, shape));
+                    of_shape = (shape, Vertices::of(surfaces, shape));
                 }
                 let Vertices { positions, normals: of_vertices, indices, last } = of_shape.1;
                 let indices = indices[triangle as usize];
@@ -255,21 +258,6 @@ fn gather_vector<F: Block>(vectors: &[&[f32; 4]; MAX_LANES]) -> Xyz<F> {
 /// What lanes without a vertex read.
 const NOTHING: [f32; 4] = [0.0; 4];
 
-/// Position and normal of a mesh's last vertex, followed by a number without a meaning.
-#[derive(Clone, Copy)]
-pub(crate) struct LastVertex {
-    position: [f32; 4],
-    normal: [f32; 4],
-}
-
-impl LastVertex {
-    /// The last vertex of a mesh.
-    pub fn of(mesh: &TriangleMesh) -> Self {
-        let last = |vectors: &[Vec3]| vectors.last().unwrap_or(&Vec3::ZERO).extend(0.0).to_array();
-        Self { position: last(&mesh.positions), normal: last(&mesh.normals) }
-    }
-}
-
 /// The vertices of a mesh, as numbers.
 #[derive(Clone, Copy)]
 struct Vertices<'a> {
@@ -281,13 +269,14 @@ struct Vertices<'a> {
 
 impl<'a> Vertices<'a> {
     #[inline(always)]
-    fn of(meshes: &'a [TriangleMesh], last_vertices: &'a [LastVertex], shape: u32) -> Self {
-        let TriangleMesh { positions, normals, indices, .. } = &meshes[shape as usize];
+    fn of(surfaces: &'a Surfaces, shape: u32) -> Self {
+        let (mesh, last) = surfaces.mesh(shape);
+        let TriangleMesh { positions, normals, indices, .. } = mesh;
         Self {
             positions: bytemuck::cast_slice(positions),
             normals: bytemuck::cast_slice(normals),
             indices,
-            last: &last_vertices[shape as usize],
+            last,
         }
     }
 }

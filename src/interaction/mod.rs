@@ -2,15 +2,17 @@
 
 mod block;
 mod hit;
+mod surfaces;
 
 use glam::{Vec2, Vec3};
 
+pub(crate) use block::Hits;
 pub use block::{BLOCK, HitBlock};
-pub(crate) use block::{Hits, LastVertex};
 pub use hit::Hit;
+pub(crate) use surfaces::Surfaces;
 
 use crate::geometry::{BoundedPoint, Frame, PixelCone, Ray, Xyz, unit, unit_cross};
-use crate::shape::{TriangleMesh, shading_normal_wide, triangle_normal};
+use crate::shape::{PlacedMesh, TriangleMesh, shading_normal_wide, triangle_normal};
 use crate::simd::Float;
 
 /// Derivatives of position and normal with respect to the texture coordinates (u, v).
@@ -77,7 +79,7 @@ pub struct SurfacePlace {
 /// What the remaining quantities are computed from.
 #[derive(Clone)]
 enum Source<'a> {
-    Triangle { mesh: &'a TriangleMesh, place: SurfacePlace },
+    Triangle { mesh: PlacedMesh<'a>, place: SurfacePlace },
     Given { uv: Vec2, partials: Partials, place: Option<SurfacePlace> },
 }
 
@@ -89,12 +91,13 @@ impl<'a> SurfaceInteraction<'a> {
     /// If `triangle` is out of range.
     #[inline]
     pub fn on_triangle(mesh: &'a TriangleMesh, triangle: usize, b: [f32; 3], wo: Vec3) -> Self {
-        Self::on_shape(mesh, SurfacePlace { shape: 0, triangle: triangle as u32, b }, wo)
+        let place = SurfacePlace { shape: 0, triangle: triangle as u32, b };
+        Self::on_shape(PlacedMesh::new(mesh, None), place, wo)
     }
 
     /// The point at `place` of the shape with this mesh, seen from the unit direction `wo`.
     #[inline]
-    pub(crate) fn on_shape(mesh: &'a TriangleMesh, place: SurfacePlace, wo: Vec3) -> Self {
+    pub(crate) fn on_shape(mesh: PlacedMesh<'a>, place: SurfacePlace, wo: Vec3) -> Self {
         let SurfacePlace { triangle, b, .. } = place;
         let triangle = triangle as usize;
         let corners = mesh.corners(triangle);
@@ -152,7 +155,7 @@ impl<'a> SurfaceInteraction<'a> {
     pub fn uv(&self) -> Vec2 {
         match &self.source {
             Source::Triangle { mesh, place: SurfacePlace { triangle, b, .. } } => {
-                uv_at(mesh, *triangle, *b)
+                uv_at(*mesh, *triangle, *b)
             }
             Source::Given { uv, .. } => *uv,
         }
@@ -291,7 +294,7 @@ impl<'a> SurfaceInteraction<'a> {
 
 /// Texture coordinates of a point of a triangle.
 #[inline]
-fn uv_at(mesh: &TriangleMesh, triangle: u32, b: [f32; 3]) -> Vec2 {
+fn uv_at(mesh: PlacedMesh, triangle: u32, b: [f32; 3]) -> Vec2 {
     let [uv0, uv1, uv2] = mesh.corner_uvs(triangle as usize);
     b[0] * uv0 + b[1] * uv1 + b[2] * uv2
 }

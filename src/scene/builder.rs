@@ -4,87 +4,27 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::sync::Arc;
 
+use glam::Affine3A;
+
+use super::error::SceneError;
+use super::instances::{NewInstance, instances};
 use super::model::{Scene, Shape};
+use super::new_shape::{NewEmission, NewMaterial, NewShape};
 use super::settings::Emission;
 use crate::accel::{Accel, InstructionSet};
 use crate::clock::Stopwatch;
-use crate::interaction::LastVertex;
+use crate::interaction::Surfaces;
 use crate::light::{AreaLight, Light};
 use crate::material::{Material, MatteMaterial};
-use crate::params::quoted;
-use crate::shape::{MeshError, TriangleMesh};
+use crate::shape::TriangleMesh;
 use crate::spectrum::Spectrum;
-
-/// Why a scene cannot be built.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SceneError {
-    /// A shape refers to a material that the scene does not have.
-    #[error(
-        "shape {} refers to material {}, which the scene does not have",
-        quoted(shape),
-        quoted(material)
-    )]
-    UnknownMaterial {
-        /// The shape's name.
-        shape: String,
-        /// The name of the missing material.
-        material: String,
-    },
-    /// More triangles than [`Accel::MAX_TRIANGLES`].
-    #[error("the scene has {0} triangles, more than {max}", max = Accel::MAX_TRIANGLES)]
-    TooManyTriangles(usize),
-    /// An [`Emission`] is negative or not finite.
-    #[error(
-        "shape {} emits {radiance:?}: each band has to be finite and at least 0",
-        quoted(shape)
-    )]
-    Emission {
-        /// The shape.
-        shape: String,
-        /// What it emits.
-        radiance: [f32; 3],
-    },
-    /// The materials of a shape's triangles are not one for each.
-    #[error("shape {}: {reason}", quoted(shape))]
-    Materials {
-        /// The shape.
-        shape: String,
-        /// What is wrong.
-        reason: String,
-    },
-    /// A mesh failed [`TriangleMesh::check`].
-    #[error("shape {}: {}", quoted(.0), .1)]
-    Mesh(String, MeshError),
-}
-
-/// Emission of a shape, before `build`.
-enum NewEmission {
-    Constant(Emission),
-    Light(Arc<dyn Light>),
-}
-
-/// A shape, before `build`.
-struct NewShape {
-    name: String,
-    mesh: TriangleMesh,
-    material: NewMaterial,
-    emission: Option<NewEmission>,
-}
-
-/// What a shape is made of, before `build`.
-enum NewMaterial {
-    /// All of it; `None` reflects nothing.
-    Everywhere(Option<String>),
-    /// Names, and which of them each triangle has.
-    ByTriangle(Vec<String>, Vec<u32>),
-}
 
 /// Collects the parts of a [`Scene`] in any order. [`build`](Self::build) checks them.
 #[derive(Default)]
 pub struct SceneBuilder {
     materials: BTreeMap<String, Arc<dyn Material>>,
     shapes: Vec<NewShape>,
+    instances: Vec<NewInstance>,
     lights: Vec<Arc<dyn Light>>,
     instruction_set: InstructionSet,
 }
@@ -172,6 +112,18 @@ impl SceneBuilder {
         self
     }
 
+    /// Adds the shape of that name once more, moved by `transform` from where it stands, without a copy of its mesh. Shapes that
+    /// emit are copied, and so are those that `transform` flattens.
+    pub fn instance(
+        mut self,
+        name: impl Into<String>,
+        shape: impl Into<String>,
+        transform: Affine3A,
+    ) -> Self {
+        self.instances.push(NewInstance { name: name.into(), shape: shape.into(), transform });
+        self
+    }
+
     /// Adds a light. To share it, pass an [`Arc`].
     pub fn light(mut self, light: impl Light + 'static) -> Self {
         self.lights.push(light.into_arc());
@@ -189,13 +141,16 @@ impl SceneBuilder {
     /// # Errors
     /// The first invalid mesh, emission or unknown material, or too many triangles. Lights and materials are taken as
     /// they are.
-    pub fn build(self) -> Result<Scene, SceneError> {
+    pub fn build(mut self) -> Result<Scene, SceneError> {
+        for NewShape { name, mesh, .. } in &self.shapes {
+            mesh.check().map_err(|error| SceneError::Mesh(name.clone(), error))?;
+        }
+        let (names, instances) = instances(&mut self.shapes, self.instances)?;
         let mut shapes = Vec::with_capacity(self.shapes.len());
         let mut meshes = Vec::with_capacity(self.shapes.len());
         let mut lights = self.lights;
         let mut known = Known { all: self.materials, used: Vec::new(), indices: BTreeMap::new() };
         for NewShape { name, mesh, material, emission } in self.shapes {
-            mesh.check().map_err(|error| SceneError::Mesh(name.clone(), error))?;
             if let Some(NewEmission::Constant(Emission { radiance, .. })) = emission
                 && !radiance.is_valid()
             {
@@ -221,11 +176,11 @@ impl SceneBuilder {
             return Err(SceneError::TooManyTriangles(triangles));
         }
         let start = Stopwatch::start();
-        let accel = Accel::build_for(self.instruction_set, &meshes);
+        let accel = Accel::build_with_instances(self.instruction_set, &meshes, &instances);
         Ok(Scene {
-            last_vertices: meshes.iter().map(LastVertex::of).collect(),
+            surfaces: Surfaces::new(meshes, instances),
+            instance_names: names,
             shapes,
-            meshes,
             lights,
             has_holes: known.used.iter().any(|material| material.opacity().is_some()),
             materials: known.used,

@@ -4,12 +4,16 @@
 //! any view with any settings.
 
 mod builder;
+mod error;
 mod holes;
+mod instances;
 mod model;
+mod new_shape;
 mod settings;
 mod view;
 
-pub use builder::{SceneBuilder, SceneError};
+pub use builder::SceneBuilder;
+pub use error::SceneError;
 pub use model::Scene;
 pub use settings::{Emission, FilmSettings};
 pub use view::{View, ViewError};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::accel::{Accel, Hit, InstructionSet};
 use crate::bxdf::{Arena, Bsdf, BsdfBlock};
 use crate::geometry::{PixelCone, Ray};
-use crate::interaction::{HitBlock, LastVertex, SurfaceInteraction, SurfacePlace};
+use crate::interaction::{HitBlock, SurfaceInteraction, SurfacePlace, Surfaces};
 use crate::light::{BoundingSphere, Light};
 use crate::material::Material;
 use crate::shape::TriangleMesh;
@@ -32,9 +32,9 @@ use crate::shape::TriangleMesh;
 /// ```
 pub struct Scene {
     pub(super) shapes: Vec<Shape>,
-    pub(super) meshes: Vec<TriangleMesh>,
-    /// Of each mesh.
-    pub(super) last_vertices: Vec<LastVertex>,
+    pub(super) surfaces: Surfaces,
+    /// Of each instance.
+    pub(super) instance_names: Vec<String>,
     pub(super) lights: Vec<Arc<dyn Light>>,
     /// Those that shapes have, each once.
     pub(super) materials: Vec<Arc<dyn Material>>,
@@ -68,7 +68,19 @@ impl Scene {
 
     /// Name and mesh of each shape, in the order in which they were added.
     pub fn shapes(&self) -> impl Iterator<Item = (&str, &TriangleMesh)> {
-        self.shapes.iter().map(|s| s.name.as_str()).zip(&self.meshes)
+        self.shapes.iter().map(|s| s.name.as_str()).zip(self.surfaces.meshes())
+    }
+
+    /// Name of each instance, and that of its shape, in the order in which they were added. Those that are copies of their shape are
+    /// shapes.
+    pub fn instances(&self) -> impl Iterator<Item = (&str, &str)> {
+        let shapes = self.surfaces.instances().iter().map(|i| &self.shapes[i.mesh as usize]);
+        self.instance_names.iter().map(String::as_str).zip(shapes.map(|s| s.name.as_str()))
+    }
+
+    #[inline]
+    fn shape_at(&self, hit: &Hit) -> &Shape {
+        &self.shapes[self.surfaces.mesh_index(hit.shape)]
     }
 
     /// A sphere around all triangles.
@@ -88,7 +100,7 @@ impl Scene {
     /// Like [`Scene::interaction`].
     #[inline]
     pub fn light_at(&self, hit: &Hit) -> Option<usize> {
-        self.shapes[hit.shape as usize].light
+        self.shape_at(hit).light
     }
 
     /// Indices of the area lights.
@@ -104,13 +116,13 @@ impl Scene {
 
     /// An empty block of hits on this scene's surfaces.
     pub(crate) fn hit_block<'a>(&'a self, cone: Option<&'a PixelCone>) -> HitBlock<'a> {
-        HitBlock::new(&self.meshes, &self.last_vertices, cone, self.instruction_set())
+        HitBlock::new(&self.surfaces, cone, self.instruction_set())
     }
 
     /// Index of the material at a hit. Shapes may share one.
     #[inline]
     pub(crate) fn material_at(&self, hit: &Hit) -> u32 {
-        let shape = &self.shapes[hit.shape as usize];
+        let shape = self.shape_at(hit);
         *shape.materials.get(hit.triangle as usize).unwrap_or(&shape.material)
     }
 
@@ -144,7 +156,7 @@ impl Scene {
     /// If `hit` is a miss, or a hit in another scene.
     #[inline]
     pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction<'_> {
-        let mesh = &self.meshes[hit.shape as usize];
+        let mesh = self.surfaces.placed(hit.shape);
         let place = SurfacePlace { shape: hit.shape, triangle: hit.triangle, b: hit.b };
         SurfaceInteraction::on_shape(mesh, place, -ray.d)
     }

@@ -27,6 +27,15 @@ pub struct Description {
     pub textures: Textures,
     lights: Vec<Arc<dyn Light>>,
     shapes: Vec<(String, Shape)>,
+    instances: Vec<NewInstance>,
+}
+
+/// A shape once more.
+struct NewInstance {
+    name: String,
+    /// The shape's name, and the position of that name.
+    shape: (String, Mark),
+    transform: Affine3A,
 }
 
 struct Shape {
@@ -75,6 +84,7 @@ pub fn describe(document: &Document) -> Result<Description, Fault> {
         textures,
         lights: all(root.tables(sections::LIGHT.key)?, light)?,
         shapes: all(root.tables(sections::SHAPE.key)?, shape)?,
+        instances: all(root.tables(sections::INSTANCE.key)?, instance)?,
     })
 }
 
@@ -120,9 +130,7 @@ fn shape(table: Table) -> Result<Shape, Fault> {
         let emission = table.get(&sections::EMISSION)?;
         let emission = emission
             .map(|radiance| Emission { radiance, two_sided: two_sided.unwrap_or_default() });
-        let scale = table.get(&sections::SCALE)?.0;
-        let rotation = table.get(&sections::ROTATE)?.map_or(Quat::IDENTITY, Quat::from);
-        let translation = table.get(&sections::TRANSLATE)?;
+        let transform = transform(table)?;
         let load = (kind.read)(table)?;
         let material = table.get(&sections::SHAPE_MATERIAL)?;
         let is_missing = material.is_none() && emission.is_none();
@@ -134,10 +142,24 @@ fn shape(table: Table) -> Result<Shape, Fault> {
             missing,
             emission,
             two_sided: two_sided.unwrap_or(true),
-            // Scale, then rotate, then translate.
-            transform: Affine3A::from_scale_rotation_translation(scale, rotation, translation),
+            transform,
         })
     })
+}
+
+fn instance((name, table): (&str, Table)) -> Result<NewInstance, Fault> {
+    sections::INSTANCE.read(table, |kind, table| {
+        let (name, transform) = (name.to_owned(), transform(table)?);
+        Ok(NewInstance { name, shape: (kind.read)(table)?, transform })
+    })
+}
+
+/// Scale, then rotate, then translate.
+fn transform(table: &Table) -> Result<Affine3A, Fault> {
+    let scale = table.get(&sections::SCALE)?.0;
+    let rotation = table.get(&sections::ROTATE)?.map_or(Quat::IDENTITY, Quat::from);
+    let translation = table.get(&sections::TRANSLATE)?;
+    Ok(Affine3A::from_scale_rotation_translation(scale, rotation, translation))
 }
 
 /// What the camera of a model depends on.
@@ -197,10 +219,12 @@ pub fn build(
     document: &Document,
     instruction_set: InstructionSet,
 ) -> Result<Built, Fault> {
-    let Description { view, settings, materials, textures, lights, shapes } = description;
+    let Description { view, settings, materials, textures, lights, shapes, instances } =
+        description;
     let fault = |error: SceneError| {
         let keys = match &error {
             SceneError::Mesh(shape, _) => vec![sections::SHAPE.key, shape],
+            SceneError::Instance { instance, .. } => vec![sections::INSTANCE.key, instance],
             _ => vec![sections::SHAPE.key],
         };
         Fault::new(document.root.follow(&keys).mark, error)
@@ -213,6 +237,13 @@ pub fn build(
             return Err(Fault { mark: *mark, problem });
         }
     }
+    for NewInstance { shape: (shape, mark), .. } in &instances {
+        if !shapes.iter().any(|(name, _)| name == shape) {
+            let known = shapes.iter().map(|(name, _)| name.as_str());
+            let problem = Problem::unknown_name(sections::SHAPE.key, shape, known);
+            return Err(Fault { mark: *mark, problem });
+        }
+    }
     let builder = lights
         .into_iter()
         .fold(Scene::builder().instruction_set(instruction_set), SceneBuilder::light);
@@ -221,6 +252,8 @@ pub fn build(
         .into_iter()
         .fold(builder, |builder, (name, material)| builder.material(name, material));
     let mut reports = Vec::with_capacity(shapes.len());
+    // Of shapes that became several.
+    let mut parts = BTreeMap::new();
     let mut faces = FaceMaterials::new(&by_name, &textures);
     for (name, Shape { load, material, missing, emission, two_sided, transform }) in shapes {
         let ObjMesh { mut mesh, report, materials } = load()?;
@@ -229,9 +262,10 @@ pub fn build(
         let names_some = !materials.of_triangles.is_empty() && emission.is_none();
         builder = match (material, missing) {
             (None, _) if names_some => {
-                let (builder, count) = faces.add(builder, &name, &mesh, &materials, two_sided);
+                let (builder, names) = faces.add(builder, &name, &mesh, &materials, two_sided);
                 // What is odd about the file is said once.
-                reports.resize(reports.len() + count - 1, ObjReport::default());
+                reports.resize(reports.len() + names.len() - 1, ObjReport::default());
+                parts.insert(name, names);
                 builder
             }
             (None, Some(missing)) => return Err(missing),
@@ -240,6 +274,14 @@ pub fn build(
             }
         };
     }
-    let faces = faces.found;
-    Ok(Built { scene: builder.build().map_err(fault)?, view, settings, reports, faces })
+    for NewInstance { name, shape: (shape, _), transform } in instances {
+        let parts = parts.get(&shape).cloned().unwrap_or_else(|| vec![shape]);
+        builder = parts
+            .into_iter()
+            .fold(builder, |builder, part| builder.instance(name.clone(), part, transform));
+    }
+    let (scene, faces) = (builder.build().map_err(fault)?, faces.found);
+    // Copies come last.
+    reports.resize(scene.shapes().count(), ObjReport::default());
+    Ok(Built { scene, view, settings, reports, faces })
 }

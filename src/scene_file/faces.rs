@@ -55,7 +55,7 @@ impl<'a> FaceMaterials<'a> {
     }
 
     /// Adds a shape whose triangles have the materials that they name, and one for each material that emits, on one side or on both. Returns
-    /// how many there are.
+    /// their names.
     pub fn add(
         &mut self,
         mut builder: SceneBuilder,
@@ -63,7 +63,7 @@ impl<'a> FaceMaterials<'a> {
         mesh: &TriangleMesh,
         faces: &ObjMaterials,
         two_sided: bool,
-    ) -> (SceneBuilder, usize) {
+    ) -> (SceneBuilder, Vec<String>) {
         let library = self.read(&faces.libraries);
         let indices = faces.of_triangles.iter().flat_map(|index| index.to_le_bytes());
         let names = faces.names.iter().flat_map(|name| name.bytes().chain([b'\n']));
@@ -108,14 +108,16 @@ impl<'a> FaceMaterials<'a> {
                 }
             }
         }
-        let count = glowing.len() + usize::from(!quiet.is_empty());
+        let mut added = Vec::with_capacity(1 + glowing.len());
         if !quiet.is_empty() {
+            added.push(shape.to_owned());
             builder = builder.shape_with_materials(shape, mesh.part(&quiet), names, of_triangles);
         }
         for (name, part, key, emission) in glowing {
+            added.push(name.clone());
             builder = builder.glowing_shape(name, part, key, emission);
         }
-        (builder, count)
+        (builder, added)
     }
 
     fn material(

@@ -8,7 +8,7 @@ use crate::image::Display;
 use crate::integrator::{self, INTEGRATORS};
 use crate::light::{self, LIGHTS};
 use crate::material::{self, DETAILS, MATERIALS};
-use crate::params::{AnySection, Key, Rotation, Scale, Section};
+use crate::params::{AnySection, Fault, Key, Kind, Mark, Rotation, Scale, Section, Table};
 use crate::render::SamplerSettings;
 use crate::sampling::{Make, SAMPLERS};
 use crate::scene::FilmSettings;
@@ -17,8 +17,8 @@ use crate::spectrum::Spectrum;
 use crate::texture::{self, TEXTURES};
 
 /// All tables, in the order of the documentation.
-pub static SECTIONS: [&dyn AnySection; 8] =
-    [&CAMERA, &FILM, &SAMPLER, &INTEGRATOR, &TEXTURE, &MATERIAL, &LIGHT, &SHAPE];
+pub static SECTIONS: [&dyn AnySection; 9] =
+    [&CAMERA, &FILM, &SAMPLER, &INTEGRATOR, &TEXTURE, &MATERIAL, &LIGHT, &SHAPE, &INSTANCE];
 
 pub static CAMERA: Section<camera::Read> = Section {
     key: "camera",
@@ -138,4 +138,24 @@ pub static SHAPE: Section<shape::Read> = Section {
     default: Some(SHAPES[0].name),
     common: &[&SHAPE_MATERIAL, &EMISSION, &TWO_SIDED, &SCALE, &ROTATE, &TRANSLATE],
     kinds: SHAPES,
+};
+
+const OF: Key<String> = Key::new(SHAPE.key, "name of the shape, which stays where it is");
+
+/// How a kind of instance is read: the shape's name and its place.
+pub type ReadInstance = fn(&Table) -> Result<(String, Mark), Fault>;
+
+pub static INSTANCE: Section<ReadInstance> = Section {
+    key: "instance",
+    plural: "instances",
+    is_named: true,
+    selector: "type",
+    default: Some("shape"),
+    common: &[&SCALE, &ROTATE, &TRANSLATE],
+    kinds: &[Kind {
+        name: "shape",
+        meaning: "A shape once more, moved from where it stands, without a copy of its mesh",
+        keys: &[&OF],
+        read: |table| Ok((table.get(&OF)?, table.mark(&OF))),
+    }],
 };

@@ -1,7 +1,8 @@
 //! [`TriangleMesh`]: an indexed triangle mesh.
 
-use glam::{Affine3A, DMat3, DVec3, Vec2, Vec3};
+use glam::{Affine3A, Vec2, Vec3};
 
+use super::placement::Placement;
 use super::triangle::triangle_normal;
 use crate::geometry::float::gamma;
 use crate::geometry::{Frame, Xyz, unit_cross};
@@ -84,22 +85,13 @@ impl TriangleMesh {
     /// 3rd edition, section 3.6.2). If it may be singular, the result is an arbitrary pair of unit
     /// tangents.
     pub fn position_partials(&self, triangle: usize) -> [Vec3; 2] {
-        let [p0, p1, p2] = self.corners(triangle);
-        let solved = self.solve_uv(triangle, p0 - p2, p1 - p2);
-        solved.filter(|[dpdu, dpdv]| unit_cross(*dpdu, *dpdv).is_some()).unwrap_or_else(|| {
-            let frame = Frame::from_normal(self.geometric_normal(triangle));
-            [frame.s, frame.t]
-        })
+        position_partials(self.corners(triangle), self.corner_uvs(triangle))
     }
 
     /// ∂n/∂u and ∂n/∂v of a triangle's vertex normals; zero if a corner has no normal, or if the
     /// texture coordinates are degenerate.
     pub fn normal_partials(&self, triangle: usize) -> [Vec3; 2] {
-        let normals = self.corner_normals(triangle);
-        normals
-            .filter(|normals| normals.iter().all(|n| *n != Vec3::ZERO))
-            .and_then(|[n0, n1, n2]| self.solve_uv(triangle, n0 - n2, n1 - n2))
-            .unwrap_or_default()
+        normal_partials(self.corner_normals(triangle), self.corner_uvs(triangle))
     }
 
     /// The mesh of some of the triangles, with the vertices that they have, in the order of their first use.
@@ -128,21 +120,14 @@ impl TriangleMesh {
     /// Transforms positions and normals. A transformation that mirrors also reverses the order of
     /// each triangle's corners, so that the outside stays outside.
     pub fn transform(&mut self, transform: &Affine3A) {
+        let placement = Placement::new(transform);
         for p in &mut self.positions {
-            *p = transform.transform_point3(*p);
+            *p = placement.point(*p);
         }
-        // Normals are transformed by the inverse transpose, which is the cofactor matrix up to a
-        // factor. The cofactor matrix exists even for singular transformations. In f64, because its
-        // products exceed the range of f32.
-        let [x, y, z]: [DVec3; 3] =
-            [transform.x_axis, transform.y_axis, transform.z_axis].map(|v| Vec3::from(v).into());
-        let mirrored = x.cross(y).dot(z) < 0.0;
-        let sign = if mirrored { -1.0 } else { 1.0 };
-        let cofactors = sign * DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
         for n in &mut self.normals {
-            *n = (cofactors * n.as_dvec3()).normalize_or_zero().as_vec3();
+            *n = placement.normal(*n);
         }
-        if mirrored {
+        if placement.is_mirrored {
             self.indices.iter_mut().for_each(|corners| corners.swap(1, 2));
         }
     }
@@ -155,25 +140,40 @@ impl TriangleMesh {
         }
         Some(self.indices[triangle].map(|i| self.normals[i as usize]))
     }
+}
 
-    /// The derivatives by u and v of a quantity that is linear over a triangle. `d02` and `d12` are
-    /// its differences from the third corner to the first and second. `None` if the texture
-    /// coordinates are degenerate.
-    fn solve_uv(&self, triangle: usize, d02: Vec3, d12: Vec3) -> Option<[Vec3; 2]> {
-        let [uv0, uv1, uv2] = self.corner_uvs(triangle);
-        let (duv02, duv12) = (uv0 - uv2, uv1 - uv2);
-        let (down, up) = (duv02.x * duv12.y, duv02.y * duv12.x);
-        let determinant = down - up;
-        // Below this bound the determinant may be all rounding error.
-        if determinant.abs() <= gamma(3) * (down.abs() + up.abs()) {
-            return None;
-        }
-        let derivatives = [
-            (duv12.y * d02 - duv02.y * d12) / determinant,
-            (duv02.x * d12 - duv12.x * d02) / determinant,
-        ];
-        derivatives.iter().all(|d| d.is_finite()).then_some(derivatives)
+/// [`TriangleMesh::position_partials`] of these corners.
+pub(super) fn position_partials([p0, p1, p2]: [Vec3; 3], uvs: [Vec2; 3]) -> [Vec3; 2] {
+    let solved = solve_uv(uvs, p0 - p2, p1 - p2);
+    solved.filter(|[dpdu, dpdv]| unit_cross(*dpdu, *dpdv).is_some()).unwrap_or_else(|| {
+        let frame = Frame::from_normal(triangle_normal([p0, p1, p2]));
+        [frame.s, frame.t]
+    })
+}
+
+/// [`TriangleMesh::normal_partials`] of these normals.
+pub(super) fn normal_partials(normals: Option<[Vec3; 3]>, uvs: [Vec2; 3]) -> [Vec3; 2] {
+    normals
+        .filter(|normals| normals.iter().all(|n| *n != Vec3::ZERO))
+        .and_then(|[n0, n1, n2]| solve_uv(uvs, n0 - n2, n1 - n2))
+        .unwrap_or_default()
+}
+
+/// The derivatives by u and v of a quantity that is linear over a triangle. `d02` and `d12` are its differences from the third
+/// corner to the first and second. `None` if the texture coordinates are degenerate.
+fn solve_uv([uv0, uv1, uv2]: [Vec2; 3], d02: Vec3, d12: Vec3) -> Option<[Vec3; 2]> {
+    let (duv02, duv12) = (uv0 - uv2, uv1 - uv2);
+    let (down, up) = (duv02.x * duv12.y, duv02.y * duv12.x);
+    let determinant = down - up;
+    // Below this bound the determinant may be all rounding error.
+    if determinant.abs() <= gamma(3) * (down.abs() + up.abs()) {
+        return None;
     }
+    let derivatives = [
+        (duv12.y * d02 - duv02.y * d12) / determinant,
+        (duv02.x * d12 - duv12.x * d02) / determinant,
+    ];
+    derivatives.iter().all(|d| d.is_finite()).then_some(derivatives)
 }
 
 /// [`TriangleMesh::shading_normal`] from the normals of the corners, and where there is one.

@@ -16,15 +16,19 @@
 //! ```
 
 mod check;
+mod instance;
 mod kind;
 mod mesh;
 mod mtl;
 mod obj;
+mod placed_mesh;
+mod placement;
 mod rectangle;
 mod triangle;
 mod watertight;
 
 pub use check::MeshError;
+pub use instance::Instance;
 pub use kind::{Load, Read};
 pub use mesh::TriangleMesh;
 pub(crate) use mesh::shading_normal_wide;
@@ -33,6 +37,8 @@ pub use obj::{
     ObjAttribute, ObjError, ObjMaterials, ObjMesh, ObjProblem, ObjReport, SkippedLines, parse_obj,
     read_obj,
 };
+pub(crate) use placed_mesh::PlacedMesh;
+pub(crate) use placement::Placement;
 pub(crate) use triangle::triangle_normal_wide;
 pub use triangle::{TriangleHit, triangle_normal};
 pub use watertight::ShearedRay;

@@ -13,7 +13,7 @@ use crate::shape::TriangleMesh;
 
 /// The tree over the triangles of all meshes, built by so many threads. It does not depend on how many they are.
 /// Leaves hold at most `max_in_leaf` triangles, unless those coincide.
-pub fn build(meshes: &[TriangleMesh], threads: NonZeroUsize, max_in_leaf: usize) -> Bvh {
+pub fn build(meshes: &[&TriangleMesh], threads: NonZeroUsize, max_in_leaf: usize) -> Bvh {
     let primitives = Primitives::new(meshes);
     let Partition { ids, counts, child_cost } = partition(&primitives, threads);
     let mut rest = &ids[..];
@@ -88,7 +88,7 @@ mod tests {
         let meshes = scene();
         let tree = |threads: usize| {
             let threads = NonZeroUsize::new(threads).expect("at least one");
-            let bvh = build(&meshes, threads, 16);
+            let bvh = build(&meshes.each_ref(), threads, 16);
             let triangles: usize = meshes.iter().map(|mesh| mesh.indices.len()).sum();
             assert_eq!(bvh.leaves.triangle_count(), triangles);
             let nodes: Vec<_> = bvh.nodes.iter().map(|n| (n.planes, n.children)).collect();

@@ -10,6 +10,7 @@ mod binary_tree;
 mod collapse;
 mod cuts;
 mod duplicates;
+mod forest;
 mod layout;
 mod parallel;
 mod partition;
@@ -18,4 +19,5 @@ mod top_level;
 mod treelet;
 
 pub use assemble::build;
+pub use forest::build_forest;
 pub use parallel::available_threads;

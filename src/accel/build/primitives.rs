@@ -7,14 +7,14 @@ use crate::shape::TriangleMesh;
 
 /// The triangles of all meshes. Their ids count them through, mesh after mesh.
 pub struct Primitives<'a> {
-    meshes: &'a [TriangleMesh],
+    meshes: &'a [&'a TriangleMesh],
     /// For each mesh the id of its first triangle.
     pub first_ids: Vec<u32>,
     pub count: u32,
 }
 
 impl<'a> Primitives<'a> {
-    pub fn new(meshes: &'a [TriangleMesh]) -> Self {
+    pub fn new(meshes: &'a [&'a TriangleMesh]) -> Self {
         let mut count = 0;
         let mut first_ids = Vec::with_capacity(meshes.len());
         for mesh in meshes {

@@ -6,6 +6,7 @@ use super::beam::trace_beam;
 use super::frustum::MAX_PACKETS;
 use super::packet::Packet;
 use super::single_ray::{AnyHit, ClosestHit, Found, Start};
+use super::space::World;
 use super::stack::Stack;
 use crate::accel::tree::Bvh;
 use crate::geometry::Ray;
@@ -32,7 +33,7 @@ impl Answer for Hit {
 
     #[inline(always)]
     fn of_ray<L: Lanes>(bvh: &Bvh, stack: &mut Stack, ray: &Ray) -> Self {
-        Self::from_found(bvh, L::call(bvh, stack, ray, ClosestHit(Start::ROOT)))
+        Self::from_found(bvh, L::call(bvh, stack, ray, ClosestHit(World, Start::ROOT)))
     }
 }
 
@@ -59,7 +60,7 @@ impl Answer for bool {
 
     #[inline(always)]
     fn of_ray<L: Lanes>(bvh: &Bvh, stack: &mut Stack, ray: &Ray) -> Self {
-        L::call(bvh, stack, ray, AnyHit(Start::ROOT))
+        L::call(bvh, stack, ray, AnyHit(World, Start::ROOT))
     }
 }
 

@@ -3,6 +3,7 @@
 use super::frustum::Frustum;
 use super::packet::Packet;
 use super::single_ray::{AnyHit, ClosestHit, Start};
+use super::space::World;
 use super::stack::Stack;
 use crate::accel::tree::{Bvh, Child, Leaf};
 use crate::simd::{LANES, Lanes, Mask};
@@ -99,11 +100,11 @@ fn trace_singly<L: Lanes>(
         rays &= rays - 1;
         let ray = &packet.ray(i);
         if any_hit {
-            if L::call(bvh, stack, ray, AnyHit(start)) {
+            if L::call(bvh, stack, ray, AnyHit(World, start)) {
                 packet.set_hit(i, f32::NEG_INFINITY, [0.0; 3], 0);
                 any = true;
             }
-        } else if let Some((hit, id)) = L::call(bvh, stack, ray, ClosestHit(start)) {
+        } else if let Some((hit, id)) = L::call(bvh, stack, ray, ClosestHit(World, start)) {
             any |= packet.set_hit(i, hit.t, hit.b, id);
         }
     }

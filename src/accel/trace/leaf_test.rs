@@ -1,5 +1,6 @@
 //! [`LeafTest`]: one ray against the triangles of a leaf.
 
+use super::space::Space;
 use crate::accel::tree::Leaf;
 use crate::shape::{Crossing, Edges, ShearedRay, TriangleHit};
 use crate::simd::{LaneMask, Mask, Vector, splat3};
@@ -29,13 +30,14 @@ impl<V: Vector> LeafTest<V> {
 
     /// The triangles that the ray hits no later than `t_max`, whether or not t exceeds the bound on its error.
     #[inline(always)]
-    pub fn candidates(&self, leaf: Leaf, t_max: V) -> Option<Candidates<V>> {
+    pub fn candidates<S: Space>(&self, space: S, leaf: Leaf, t_max: V) -> Option<Candidates<V>> {
         let ray = &self.ray;
         // All vertices in the sheared space, of which the corners are picked.
-        let z = ray.z(leaf.vertices(ray.axes[2]));
-        let x = ray.sheared(0, leaf.vertices(ray.axes[0]), z);
-        let y = ray.sheared(1, leaf.vertices(ray.axes[1]), z);
-        let corners = leaf.corners();
+        let [x, y, z] = space.vertices(leaf, ray.axes);
+        let z = ray.z(z);
+        let x = ray.sheared(0, x, z);
+        let y = ray.sheared(1, y, z);
+        let corners = space.order(leaf.corners());
         let edges = Edges::new(permute3(x, corners), permute3(y, corners));
         let on_edge = edges.any_zero();
         let lanes = (edges.inside() | on_edge).bits() & leaf.lanes();
@@ -57,13 +59,14 @@ pub fn permute3<V: Vector>(x: V, [a, b, c]: [V::Indices; 3]) -> [V; 3] {
 
 /// The scalar test of one triangle of a leaf.
 #[inline(always)]
-pub fn intersect_triangle(
+pub fn intersect_triangle<S: Space>(
+    space: S,
     sheared: &ShearedRay,
     leaf: Leaf,
     lane: u32,
     t_min: f32,
     t_max: f32,
 ) -> Option<TriangleHit> {
-    let corners = leaf.corners_of(lane);
-    sheared.intersect_at(|axis| leaf.coordinates(corners, axis), t_min, t_max)
+    let corners = space.order(leaf.corners_of(lane));
+    sheared.intersect_at(|axis| space.coordinates(leaf, corners, axis), t_min, t_max)
 }

@@ -8,13 +8,17 @@
 
 mod batch;
 mod beam;
+mod forest;
 mod frustum;
 mod leaf_test;
 mod packet;
 mod single_ray;
 mod slabs;
+mod space;
 mod stack;
 
 pub use batch::Batch;
+pub use forest::InForest;
 pub use single_ray::{AnyHit, ClosestHit, Start};
+pub use space::World;
 pub use stack::Stack;

@@ -3,6 +3,7 @@
 use glam::Vec3A;
 
 use super::leaf_test::{LeafTest, intersect_triangle};
+use super::space::World;
 use crate::accel::tree::{Bvh, Leaf, Node};
 use crate::geometry::Ray;
 use crate::interaction::Hit;
@@ -118,7 +119,7 @@ impl<'a, L: Lanes> Packet<'a, L> {
         let sheared = ShearedRay { axes, o: lane3(o, ray), shear: lane3(shear, ray) };
         let test = LeafTest::<V>::new(&sheared, self.t_min.lane(ray));
         let t_max = V::splat(self.t_max.lane(ray));
-        test.candidates(leaf, t_max).map_or(0, |candidates| candidates.lanes)
+        test.candidates(World, leaf, t_max).map_or(0, |candidates| candidates.lanes)
     }
 
     /// Tests all rays against one triangle of a leaf; returns those for which it is the nearest hit so far.
@@ -267,5 +268,5 @@ pub fn lane3<L: Lanes>([x, y, z]: [L; 3], lane: u32) -> [f32; 3] {
 #[cold]
 #[inline(never)]
 fn intersect_out_of_line(ray: &Ray, leaf: Leaf, lane: u32) -> Option<TriangleHit> {
-    intersect_triangle(&ShearedRay::new(ray), leaf, lane, ray.t_min, ray.t_max)
+    intersect_triangle(World, &ShearedRay::new(ray), leaf, lane, ray.t_min, ray.t_max)
 }

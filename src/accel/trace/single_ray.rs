@@ -5,7 +5,7 @@
 //! with the scalar test for every candidate.
 
 use super::leaf_test::{LeafTest, intersect_triangle};
-use super::slabs::Slabs;
+use super::space::Space;
 use super::stack::Stack;
 use crate::accel::tree::{Bvh, Child, Leaf};
 use crate::geometry::Ray;
@@ -27,19 +27,19 @@ impl Start {
 /// A ray's hit, with the id of the triangle.
 pub type Found = Option<(TriangleHit, u32)>;
 
-/// The closest hit of a ray, from some place of the tree on.
-pub struct ClosestHit(pub Start);
+/// The closest hit of a ray in a space, from some place of the tree on.
+pub struct ClosestHit<S>(pub S, pub Start);
 
-/// Whether a ray hits anything, from some place of the tree on.
-pub struct AnyHit(pub Start);
+/// Whether a ray hits anything in a space, from some place of the tree on.
+pub struct AnyHit<S>(pub S, pub Start);
 
 /// As [`ClosestHit`], with the scalar test for every candidate. A function of its own, since it hardly ever runs.
-struct ClosestHitExact(Start);
+struct ClosestHitExact<S>(S, Start);
 
 /// As [`AnyHit`], with the scalar test for every candidate.
-struct AnyHitExact(Start);
+struct AnyHitExact<S>(S, Start);
 
-impl Kernel for ClosestHit {
+impl<S: Space> Kernel for ClosestHit<S> {
     type Input = Ray;
     type Data = Bvh;
     type Scratch = Stack;
@@ -47,14 +47,14 @@ impl Kernel for ClosestHit {
 
     #[inline(always)]
     fn run<L: Lanes>(self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) -> Found {
-        match closest::<L, false>(ray, bvh, stack, self.0) {
+        match closest::<L, S, false>(self.0, ray, bvh, stack, self.1) {
             Ok(found) => found,
-            Err(Undecided) => L::call(bvh, stack, ray, ClosestHitExact(self.0)),
+            Err(Undecided) => L::call(bvh, stack, ray, ClosestHitExact(self.0, self.1)),
         }
     }
 }
 
-impl Kernel for ClosestHitExact {
+impl<S: Space> Kernel for ClosestHitExact<S> {
     type Input = Ray;
     type Data = Bvh;
     type Scratch = Stack;
@@ -62,11 +62,11 @@ impl Kernel for ClosestHitExact {
 
     #[inline(always)]
     fn run<L: Lanes>(self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) -> Found {
-        closest::<L, true>(ray, bvh, stack, self.0).unwrap_or(None)
+        closest::<L, S, true>(self.0, ray, bvh, stack, self.1).unwrap_or(None)
     }
 }
 
-impl Kernel for AnyHit {
+impl<S: Space> Kernel for AnyHit<S> {
     type Input = Ray;
     type Data = Bvh;
     type Scratch = Stack;
@@ -74,14 +74,14 @@ impl Kernel for AnyHit {
 
     #[inline(always)]
     fn run<L: Lanes>(self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) -> bool {
-        match any::<L, false>(ray, bvh, stack, self.0) {
+        match any::<L, S, false>(self.0, ray, bvh, stack, self.1) {
             Ok(found) => found,
-            Err(Undecided) => L::call(bvh, stack, ray, AnyHitExact(self.0)),
+            Err(Undecided) => L::call(bvh, stack, ray, AnyHitExact(self.0, self.1)),
         }
     }
 }
 
-impl Kernel for AnyHitExact {
+impl<S: Space> Kernel for AnyHitExact<S> {
     type Input = Ray;
     type Data = Bvh;
     type Scratch = Stack;
@@ -89,7 +89,7 @@ impl Kernel for AnyHitExact {
 
     #[inline(always)]
     fn run<L: Lanes>(self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) -> bool {
-        any::<L, true>(ray, bvh, stack, self.0).unwrap_or(false)
+        any::<L, S, true>(self.0, ray, bvh, stack, self.1).unwrap_or(false)
     }
 }
 
@@ -99,7 +99,8 @@ struct Undecided;
 /// The closest hit below a node. With `EXACT`, every candidate takes the scalar test, with its bound on the error of t.
 /// Without, only the nearest does in the end, and nearly always passes.
 #[inline(always)]
-fn closest<L: Lanes, const EXACT: bool>(
+fn closest<L: Lanes, S: Space, const EXACT: bool>(
+    space: S,
     ray: &Ray,
     bvh: &Bvh,
     stack: &mut Stack,
@@ -110,7 +111,7 @@ fn closest<L: Lanes, const EXACT: bool>(
         return Ok(None);
     }
     let narrow = LeafTest::<L::Narrow>::new(&sheared, ray.t_min);
-    let mut slabs = Slabs::<L>::new(ray, bvh.largest_coordinate);
+    let mut slabs = space.slabs::<L>(ray, bvh);
     let mut nearest = Nearest { t: ray.t_max, t_min: ray.t_min, triangle: None };
     let mut stack_len = start.stack_len;
     let mut node = &bvh.nodes[start.node as usize];
@@ -136,10 +137,10 @@ fn closest<L: Lanes, const EXACT: bool>(
             }
             let leaf = bvh.leaf(child);
             let is_nearer = if leaf.fits::<L::Narrow>() {
-                nearest.update::<_, EXACT>(&narrow, &sheared, leaf, child)?
+                nearest.update::<_, S, EXACT>(space, &narrow, &sheared, leaf, child)?
             } else {
                 let wide = LeafTest::<L>::new(&sheared, ray.t_min);
-                nearest.update::<_, EXACT>(&wide, &sheared, leaf, child)?
+                nearest.update::<_, S, EXACT>(space, &wide, &sheared, leaf, child)?
             };
             if is_nearer {
                 slabs.shorten(nearest.t);
@@ -151,14 +152,15 @@ fn closest<L: Lanes, const EXACT: bool>(
         }
     }
     let Some(LeafTriangle { child, lane, id }) = nearest.triangle else { return Ok(None) };
-    let hit = intersect_triangle(&sheared, bvh.leaf(child), lane, ray.t_min, ray.t_max);
+    let hit = intersect_triangle(space, &sheared, bvh.leaf(child), lane, ray.t_min, ray.t_max);
     Ok(Some((hit.ok_or(Undecided)?, id)))
 }
 
 /// Whether the ray hits anything below a node. With `EXACT`, candidates take the scalar test until one passes; without,
 /// only the first does.
 #[inline(always)]
-fn any<L: Lanes, const EXACT: bool>(
+fn any<L: Lanes, S: Space, const EXACT: bool>(
+    space: S,
     ray: &Ray,
     bvh: &Bvh,
     stack: &mut Stack,
@@ -169,7 +171,7 @@ fn any<L: Lanes, const EXACT: bool>(
         return Ok(false);
     }
     let narrow = LeafTest::<L::Narrow>::new(&sheared, ray.t_min);
-    let slabs = Slabs::<L>::new(ray, bvh.largest_coordinate);
+    let slabs = space.slabs::<L>(ray, bvh);
     let mut stack_len = start.stack_len;
     let mut node = &bvh.nodes[start.node as usize];
     let (leaf, lane) = 'nodes: loop {
@@ -193,16 +195,16 @@ fn any<L: Lanes, const EXACT: bool>(
             }
             let leaf = bvh.leaf(child);
             let mut lanes = if leaf.fits::<L::Narrow>() {
-                candidate_lanes(&narrow, leaf, ray.t_max)
+                candidate_lanes(space, &narrow, leaf, ray.t_max)
             } else {
-                candidate_lanes(&LeafTest::<L>::new(&sheared, ray.t_min), leaf, ray.t_max)
+                candidate_lanes(space, &LeafTest::<L>::new(&sheared, ray.t_min), leaf, ray.t_max)
             };
             if !EXACT && lanes != 0 {
                 break 'nodes (leaf, lanes.trailing_zeros());
             }
             while lanes != 0 {
                 let lane = lanes.trailing_zeros();
-                if intersect_triangle(&sheared, leaf, lane, ray.t_min, ray.t_max).is_some() {
+                if intersect_triangle(space, &sheared, leaf, lane, ray.t_min, ray.t_max).is_some() {
                     return Ok(true);
                 }
                 lanes &= lanes - 1;
@@ -213,7 +215,7 @@ fn any<L: Lanes, const EXACT: bool>(
             }
         }
     };
-    let hit = intersect_triangle(&sheared, leaf, lane, ray.t_min, ray.t_max);
+    let hit = intersect_triangle(space, &sheared, leaf, lane, ray.t_min, ray.t_max);
     hit.map(|_| true).ok_or(Undecided)
 }
 
@@ -236,14 +238,17 @@ struct Nearest {
 impl Nearest {
     /// Tests a leaf; returns whether it has a nearer hit.
     #[inline(always)]
-    fn update<V: Vector, const EXACT: bool>(
+    fn update<V: Vector, S: Space, const EXACT: bool>(
         &mut self,
+        space: S,
         test: &LeafTest<V>,
         sheared: &ShearedRay,
         leaf: Leaf,
         child: u32,
     ) -> Result<bool, Undecided> {
-        let Some(candidates) = test.candidates(leaf, V::splat(self.t)) else { return Ok(false) };
+        let Some(candidates) = test.candidates(space, leaf, V::splat(self.t)) else {
+            return Ok(false);
+        };
         if !EXACT && candidates.undecided != 0 {
             return Err(Undecided);
         }
@@ -254,7 +259,7 @@ impl Nearest {
             lanes &= lanes - 1;
             let mut t = candidates.t.lane(lane);
             if EXACT {
-                let hit = intersect_triangle(sheared, leaf, lane, self.t_min, self.t);
+                let hit = intersect_triangle(space, sheared, leaf, lane, self.t_min, self.t);
                 let Some(hit) = hit else { continue };
                 t = hit.t;
             }
@@ -272,8 +277,13 @@ impl Nearest {
 
 /// The lanes of the triangles that the ray hits, or may hit.
 #[inline(always)]
-fn candidate_lanes<V: Vector>(test: &LeafTest<V>, leaf: Leaf, t_max: f32) -> Mask {
-    test.candidates(leaf, V::splat(t_max)).map_or(0, |candidates| candidates.lanes)
+fn candidate_lanes<V: Vector, S: Space>(
+    space: S,
+    test: &LeafTest<V>,
+    leaf: Leaf,
+    t_max: f32,
+) -> Mask {
+    test.candidates(space, leaf, V::splat(t_max)).map_or(0, |candidates| candidates.lanes)
 }
 
 /// Whether the ray is finite, with a non-zero direction. Any other ray hits no triangle, yet would enter every box.

@@ -34,14 +34,26 @@ pub struct Slabs<L> {
 /// sums of three products, a quotient and a factor.
 const TOLERANCE: f32 = 1.0 + 2.0 * gamma(10);
 
+/// The padding of boxes in whose space rays and triangles are tested.
+#[inline(always)]
+pub fn padding(ray: &Ray, largest_coordinate: f32) -> f32 {
+    // In units of half an epsilon, for numbers up to `reach`: a corner that is moved to the ray's origin and sheared is
+    // off by up to 6 (two differences, quotient, product, sum); a plane by up to 4 (padded origin, difference, inverse,
+    // product). 5 epsilon in all, and a sixth for products of errors.
+    let reach = largest_coordinate + ray.o.abs().max_element();
+    6.0 * f32::EPSILON * reach
+}
+
 impl<L: Lanes> Slabs<L> {
     #[inline(always)]
     pub fn new(ray: &Ray, largest_coordinate: f32) -> Self {
-        // In units of half an epsilon, for numbers up to `reach`: a corner that is moved to the ray's origin and sheared is
-        // off by up to 6 (two differences, quotient, product, sum); a plane by up to 4 (padded origin, difference, inverse,
-        // product). 5 epsilon in all, and a sixth for products of errors.
-        let reach = largest_coordinate + ray.o.abs().max_element();
-        let padding = Vec3A::splat(6.0 * f32::EPSILON * reach).copysign(ray.d.into());
+        Self::padded(ray, Vec3A::splat(padding(ray, largest_coordinate)))
+    }
+
+    /// With this padding of boxes along each axis.
+    #[inline(always)]
+    pub fn padded(ray: &Ray, padding: Vec3A) -> Self {
+        let padding = padding.copysign(ray.d.into());
         let o = Vec3A::from(ray.o);
         let inverse = Vec3A::ONE / Vec3A::from(ray.d);
         // By the sign bit, so that -0 counts as negative.

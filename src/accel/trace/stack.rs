@@ -5,8 +5,9 @@ use std::cell::RefCell;
 use crate::accel::tree::MAX_DEPTH;
 use crate::simd::{Bits, LANES, Lanes, Mask};
 
-/// Worst case: each level leaves all children but one on the stack, and the last push writes a whole vector.
-const CAPACITY: usize = (LANES - 1) * MAX_DEPTH + LANES;
+/// Worst case: each level leaves all children but one on the stack, and the last push writes a whole vector. Twice, since a tree
+/// is walked below those above the trees of a forest.
+const CAPACITY: usize = 2 * (LANES - 1) * MAX_DEPTH + LANES;
 
 /// Ids of children, and the distance at which the ray enters each. Single rays store encoded children and t; beams
 /// store indices of slots and the distance along the frustum's axis. Traversal itself counts the entries.

@@ -25,6 +25,11 @@ impl Aabb {
         Self { min: self.min.min(p), max: self.max.max(p) }
     }
 
+    /// The smallest box around both.
+    pub fn union(self, other: Self) -> Self {
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+
     /// The largest absolute coordinate; 0 when empty.
     pub fn largest_coordinate(&self) -> f32 {
         if self.is_empty() { 0.0 } else { self.min.abs().max(self.max.abs()).max_element() }

@@ -5,6 +5,7 @@
 
 mod aabb;
 mod bvh;
+mod forest;
 mod leaf;
 mod leaves;
 mod node;
@@ -12,6 +13,7 @@ mod triangle;
 
 pub use aabb::Aabb;
 pub use bvh::{Bvh, MAX_DEPTH};
+pub use forest::{Forest, Place};
 pub use leaf::Leaf;
 pub use leaves::Leaves;
 pub use node::{Child, MAX_TRIANGLES, Node};

@@ -1,5 +1,6 @@
 //! `lobe info`: the contents of a scene file or a model.
 
+use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::Path;
 
@@ -8,7 +9,7 @@ use lobe::TriangleMesh;
 use lobe::glam::UVec2;
 use lobe::params::{Choice, Shown};
 use lobe::render::{RenderSettings, SamplerSettings};
-use lobe::scene::View;
+use lobe::scene::{Scene, View};
 use lobe::scene_file::{FaceMaterial, LoadReport, LoadedScene, TextureImage};
 
 use crate::scene::{IsaArgument, SceneArguments};
@@ -58,6 +59,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         }
         summary.add("shape", line);
     }
+    add_instances(&mut summary, &scene);
     add_materials(&mut summary, &report);
     summary.add_warnings(&scene, &report);
     summary.add_notes(&report, usize::MAX);
@@ -89,6 +91,17 @@ fn scene_text(loaded: &LoadedScene, path: &Path) -> Result<(), Box<dyn Error>> {
         return Err(format!("`{shown}` is a scene file already: --scene is for models").into());
     }
     Ok(print(&loaded.to_toml())?)
+}
+
+/// A line for each shape that has instances.
+fn add_instances(summary: &mut Summary, scene: &Scene) {
+    let mut counts = BTreeMap::new();
+    for (_, shape) in scene.instances() {
+        *counts.entry(shape).or_insert(0_usize) += 1;
+    }
+    for (shape, count) in counts {
+        summary.add("instances", format!("{shape}: {count}"));
+    }
 }
 
 /// A line for each material that faces name, and each image.

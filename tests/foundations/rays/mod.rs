@@ -10,6 +10,7 @@ mod brute_force;
 mod coincident;
 mod degenerate;
 mod edges;
+mod instances;
 mod instruction_sets;
 mod invalid_rays;
 mod kinds;
