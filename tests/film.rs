@@ -362,11 +362,60 @@ fn films_that_keep_other_things_do_not_merge() {
     film(1, Variance::OfSamples, false).merge(&film(1, Variance::None, false));
 }
 
-/// 65,536 sets for each of 2²⁸ pixels are 512 TiB, to which the rest adds 128 bytes a pixel.
+/// 65,536 sets for each of 2²⁸ pixels are 512 TiB, to which the rest adds 152 bytes a pixel.
 #[test]
 fn sets_count_towards_the_memory() {
     let contents = FilmContents { variance: Variance::OfSets(1 << 16), first_hits: false };
     let window = Window::full(UVec2::splat(1 << 14));
     let error = Film::new(window.max, window, contents).unwrap_err().to_string();
-    assert!(error.contains("16384 x 16384 pixels needs about 536903680 MiB"), "{error}");
+    assert!(error.contains("16384 x 16384 pixels needs about 536909824 MiB"), "{error}");
+}
+
+/// Pixels in which one sample holds more than half of all squared differences are told, with their share of those of the image.
+/// Truth: of 31 samples of luminance 1 and one of 33, the mean is 2, and the large one holds 31² of 31² + 31 = 992. Caught: differences
+/// from zero; merged films whose means are not compared; few samples that count; a sample that is not finite.
+#[test]
+fn fireflies_are_told() {
+    let size = UVec2::new(4, 1);
+    let film = |variance| {
+        let contents = FilmContents { variance, first_hits: false };
+        Film::new(size, Window::full(size), contents).unwrap()
+    };
+    assert_eq!(film(Variance::None).fireflies(), None);
+    for variance in [Variance::OfSamples, Variance::OfSets(4)] {
+        for parts in [1, 2, 7] {
+            let mut films: Vec<Film> = (0..parts).map(|_| film(variance)).collect();
+            let mut add = |x: u32, i: u32, y: f32| {
+                films[(i % parts) as usize].add_sample(UVec2::new(x, 0), i % 4, Spectrum::splat(y));
+            };
+            for i in 0..32 {
+                // One bright sample; two of them; none; and one among too few.
+                add(0, i, if i == 20 { 33.0 } else { 1.0 });
+                add(1, i, if i == 3 || i == 30 { 33.0 } else { 1.0 });
+                add(2, i, (i % 5) as f32);
+                add(2, i, f32::INFINITY);
+                if i < 15 {
+                    add(3, i, if i == 7 { 33.0 } else { 1.0 });
+                }
+            }
+            let mut all = film(variance);
+            films.iter().for_each(|film| all.merge(film));
+            let part = all.develop_part();
+            let read = Film::from_planes(size, Window::full(size), &part.planes, 99).unwrap();
+            assert_eq!(read.unwrap().fireflies(), all.fireflies());
+            let squares = |values: &[f64]| {
+                let mean = values.iter().sum::<f64>() / values.len() as f64;
+                values.iter().map(|y| (y - mean).powi(2)).sum::<f64>()
+            };
+            let with = |count: usize, bright: usize| {
+                (0..count).map(|i| if i < bright { 33.0 } else { 1.0 }).collect::<Vec<_>>()
+            };
+            let plain: Vec<f64> = (0..32).map(|i| f64::from(i % 5)).collect();
+            let sum = 992.0 + squares(&with(32, 2)) + squares(&plain) + squares(&with(15, 1));
+            let found = all.fireflies().unwrap();
+            assert_eq!(found.pixels, 1, "{variance:?}, {parts} parts");
+            let expected = 961.0 / sum;
+            assert!((found.share - expected).abs() < 1e-9, "{}, expected {expected}", found.share);
+        }
+    }
 }

@@ -6,6 +6,7 @@ use glam::{UVec2, Vec3};
 
 use super::Variance;
 use super::first_hits::FirstHits;
+use super::largest::{Fireflies, Largest, fireflies};
 use super::pixel_sum::{PixelSum, zeroed};
 use super::planes::Kind;
 use super::pooled::pooled;
@@ -36,6 +37,16 @@ pub struct FilmContents {
 }
 
 impl FilmContents {
+    fn has_variance(self) -> bool {
+        self.variance.bytes() > 0
+    }
+
+    /// Bytes of the sums behind the variance of a pixel.
+    fn bytes_of_variance(self) -> u64 {
+        let largest = if self.has_variance() { size_of::<Largest>() as u64 } else { 0 };
+        self.variance.bytes() + largest
+    }
+
     /// Bytes of the first hits of a pixel.
     fn bytes_of_first_hits(self) -> usize {
         if self.first_hits { size_of::<FirstHits>() } else { 0 }
@@ -77,6 +88,8 @@ pub struct Film {
     contents: FilmContents,
     pixels: Vec<PixelSum>,
     variance: VarianceSums,
+    /// Kept with the variance.
+    largest: Vec<Largest>,
     first_hits: Option<Vec<FirstHits>>,
     non_finite: u64,
 }
@@ -95,7 +108,7 @@ impl Film {
         let first_hits = contents.bytes_of_first_hits();
         // Radiance and first hits three times: as sums, in the picture, and in the file that is written. The variance once
         // as sums, and twice as a spectrum: pooled, and either by pixel before that or in the file after it.
-        let variance = contents.variance.bytes();
+        let variance = contents.bytes_of_variance();
         let developed = if variance > 0 { 2 * size_of::<Spectrum>() as u64 } else { 0 };
         let per_pixel = 3 * (size_of::<PixelSum>() + first_hits) as u64 + variance + developed;
         let bytes = (area as u64).saturating_mul(per_pixel);
@@ -109,7 +122,9 @@ impl Film {
         let variance = VarianceSums::new(contents.variance, area).ok_or(too_large)?;
         let first_hits =
             if contents.first_hits { Some(zeroed(area).ok_or(too_large)?) } else { None };
-        Ok(Self { resolution, window, contents, pixels, variance, first_hits, non_finite: 0 })
+        let largest = zeroed(if contents.has_variance() { area } else { 0 }).ok_or(too_large)?;
+        let non_finite = 0;
+        Ok(Self { resolution, window, contents, pixels, variance, largest, first_hits, non_finite })
     }
 
     /// Removes all samples and moves the film to another window, not larger than the first one.
@@ -119,6 +134,10 @@ impl Film {
         self.pixels.clear();
         self.pixels.resize(window.area(), PixelSum::default());
         self.variance.reset(window.area());
+        if self.contents.has_variance() {
+            self.largest.clear();
+            self.largest.resize(window.area(), Largest::default());
+        }
         if let Some(first_hits) = &mut self.first_hits {
             first_hits.clear();
             first_hits.resize(window.area(), FirstHits::default());
@@ -129,7 +148,7 @@ impl Film {
     pub(crate) fn bytes(&self) -> u64 {
         let contents = self.contents;
         let sums = size_of::<PixelSum>() + contents.bytes_of_first_hits();
-        let per_pixel = sums as u64 + contents.variance.bytes();
+        let per_pixel = sums as u64 + contents.bytes_of_variance();
         self.window.area() as u64 * per_pixel
     }
 
@@ -146,6 +165,12 @@ impl Film {
     /// Number of samples and first hits that were left out because they were not finite.
     pub fn non_finite(&self) -> u64 {
         self.non_finite
+    }
+
+    /// The pixels whose variance is mostly that of one sample; `None` without an estimate of variances.
+    pub fn fireflies(&self) -> Option<Fireflies> {
+        let samples = self.pixels.iter().map(|sum| sum.samples);
+        self.contents.has_variance().then(|| fireflies(&self.largest, samples))
     }
 
     /// Number of pixels without any sample.
@@ -167,7 +192,10 @@ impl Film {
         let sum = &mut self.pixels[index];
         let before = sum.samples;
         let finite = radiance.iter().filter(|radiance| radiance.is_finite());
-        self.variance.add(index, set, finite.map(|radiance| radiance.to_array()), sum);
+        self.variance.add(index, set, finite.clone().map(|radiance| radiance.to_array()), sum);
+        if let Some(largest) = self.largest.get_mut(index) {
+            largest.add(before, finite.copied());
+        }
         self.non_finite += radiance.len() as u64 - u64::from(sum.samples - before);
     }
 
@@ -205,6 +233,9 @@ impl Film {
             for (to, from) in (start..start + width).zip(row * width..) {
                 let other = &tile.pixels[from];
                 self.variance.merge(to, &self.pixels[to], &tile.variance, from, other);
+                if let Some(largest) = self.largest.get_mut(to) {
+                    largest.merge(self.pixels[to].samples, &tile.largest[from], other.samples);
+                }
                 self.pixels[to].merge(other);
                 if let (Some(first_hits), Some(of_tile)) = (&mut self.first_hits, &tile.first_hits)
                 {
@@ -231,6 +262,7 @@ impl Film {
         let (pixels, mut planes) = (self.pixels.len(), Vec::new());
         Kind::Sum.push(&self.pixels, pixels, &mut planes);
         self.variance.push_planes(pixels, &mut planes);
+        Kind::Largest.push(&self.largest, pixels, &mut planes);
         if let Some(first_hits) = &self.first_hits {
             Kind::FirstHits.push(first_hits, pixels, &mut planes);
         }
@@ -257,6 +289,7 @@ impl Film {
         let is_whole = Kind::Sum.words(planes) > 0
             && Kind::Sum.restore(&mut film.pixels, pixels, planes).is_some()
             && film.variance.restore_planes(pixels, planes).is_some()
+            && Kind::Largest.restore(&mut film.largest, pixels, planes).is_some()
             && Kind::FirstHits.restore(first_hits, pixels, planes).is_some()
             && film.pixels.iter().all(|sum| sum.samples <= most_samples)
             && film.variance.counts().all(|samples| samples <= most_samples)
@@ -289,6 +322,7 @@ impl Film {
         to.write_all(&self.non_finite.to_le_bytes())?;
         write_all(&self.pixels, to)?;
         self.variance.write(to)?;
+        write_all(&self.largest, to)?;
         self.first_hits.as_deref().map_or(Ok(()), |first_hits| write_all(first_hits, to))
     }
 
@@ -298,6 +332,7 @@ impl Film {
         (self.non_finite, *from) = (u64::from_le_bytes(*non_finite), rest);
         read_all(&mut self.pixels, from)?;
         self.variance.read(from)?;
+        read_all(&mut self.largest, from)?;
         self.first_hits.as_mut().map_or(Some(()), |first_hits| read_all(first_hits, from))
     }
 

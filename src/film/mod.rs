@@ -8,6 +8,7 @@
 mod film;
 mod filter;
 mod first_hits;
+mod largest;
 mod pixel_sum;
 mod planes;
 mod pooled;
@@ -19,4 +20,5 @@ pub use filter::{
     BlackmanHarrisFilter, BoxFilter, FILTERS, Filter, FilterError, FilterSampler, GaussianFilter,
     MAX_FILTER_RADIUS, ReadFilter, TentFilter,
 };
+pub use largest::Fireflies;
 pub use variance::Variance;

@@ -10,11 +10,12 @@ pub(super) enum Kind {
     Squares,
     Sets,
     FirstHits,
+    Largest,
 }
 
 impl Kind {
     fn name(self, word: usize) -> String {
-        let name = ["sum", "squares", "sets", "hits"][self as usize];
+        let name = ["sum", "squares", "sets", "hits", "largest"][self as usize];
         format!("film.{name}.{word:05}")
     }
 

@@ -100,6 +100,7 @@ impl State {
             complete,
             empty_pixels: self.film.empty_pixels(),
             non_finite: self.film.non_finite(),
+            fireflies: self.film.fireflies(),
             threads: self.threads,
             seconds: self.seconds(),
         }

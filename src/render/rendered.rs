@@ -1,5 +1,6 @@
 //! [`Rendered`] and [`Progress`]: what comes out of a render, in the end and on the way.
 
+use crate::film::Fireflies;
 use crate::image::Picture;
 use crate::integrator::Counters;
 
@@ -35,6 +36,9 @@ pub struct Rendered {
     pub empty_pixels: u64,
     /// Samples, and first hits of [`RenderOptions::layers`](super::RenderOptions::layers), that were left out because they were not finite.
     pub non_finite: u64,
+    /// Pixels whose variance is mostly that of one sample; `None` without [`RenderOptions::layers`](super::RenderOptions::layers), or if there is
+    /// no estimate of variances.
+    pub fireflies: Option<Fireflies>,
     /// How many threads took part.
     pub threads: usize,
     /// Wall-clock time in seconds.

@@ -91,7 +91,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         }
         all.merge(&of_part);
     }
-    let picture = film.ok_or("there are no parts")?.develop();
+    let film = film.ok_or("there are no parts")?;
+    let (picture, fireflies) = (film.develop(), film.fireflies());
     let metadata = Metadata {
         samples_per_pixel: parts[0].part.all_samples,
         seconds: parts.iter().map(|part| part.metadata.seconds).sum(),
@@ -106,6 +107,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         summary.add("samples", format!("{} per pixel", metadata.samples_per_pixel));
         summary.add("render", format!("{:.3} s, of all parts together", metadata.seconds));
         summary.add_error(&picture);
+        summary.add_fireflies(fireflies);
         summary.add("non-finite", format!("{non_finite} samples"));
         outputs.iter().for_each(|output| summary.add("wrote", output.path.display()));
         summary.print()?;

@@ -4,6 +4,7 @@ use std::fmt::Display;
 use std::io::{self, Write};
 
 use lobe::Spectrum;
+use lobe::film::Fireflies;
 use lobe::image::{Picture, Window};
 use lobe::light::BoundingSphere;
 use lobe::params::Shown;
@@ -54,6 +55,19 @@ impl Summary {
             }
             None => {}
         }
+    }
+
+    /// Adds how much of the noise is that of single samples, if it is.
+    pub fn add_fireflies(&mut self, fireflies: Option<Fireflies>) {
+        let Some(Fireflies { pixels, share, .. }) = fireflies.filter(|found| found.pixels > 0)
+        else {
+            return;
+        };
+        let noise = format!("together {:.1} % of the picture's", 100.0 * share);
+        self.add(
+            "fireflies",
+            format!("{pixels} pixels: one sample holds most of their variance, {noise}"),
+        );
     }
 
     /// Adds a line `warning` for each thing about a scene that is allowed, but usually a mistake.

@@ -27,6 +27,7 @@ pub fn of(loaded: &LoadedScene, rendered: &Rendered, file: &Path) -> Summary {
     summary.add("rays", rays);
     summary.add("speed", format!("{:.2} Mrays/s", rays as f64 / rendered.seconds / 1e6));
     summary.add_error(&rendered.picture);
+    summary.add_fireflies(rendered.fireflies);
     add_faults(&mut summary, rendered);
     summary.add_warnings(scene, report);
     summary.add_notes(report, MOST_NOTES);
