@@ -94,11 +94,13 @@ impl Texels {
     /// Of an image. `curve` holds for files with codes; those with radiance are linear.
     pub fn new(image: &Image, curve: Curve) -> Self {
         let is_linear = image.encoding == Encoding::Linear;
-        let code = |x: f32| (x * 255.0).round();
-        let is_code = |pixel: &Spectrum| pixel.to_array().iter().all(|&x| code(x) / 255.0 == x);
+        // Of what is no code, one that stands for another number.
+        let code = |x: f32| (x * 255.0 + 0.5) as u8;
+        let is_code =
+            |pixel: &Spectrum| pixel.to_array().iter().all(|&x| f32::from(code(x)) / 255.0 == x);
         let pixels = if !is_linear && image.pixels.iter().all(is_code) {
             let codes = |i: usize| {
-                let [r, g, b] = image.pixels[i].to_array().map(|x| code(x) as u8);
+                let [r, g, b] = image.pixels[i].to_array().map(code);
                 [r, g, b, 0]
             };
             let meanings = std::array::from_fn(|code| curve.decoded(code as f64 / 255.0));
