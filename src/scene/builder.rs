@@ -9,11 +9,12 @@ use super::settings::Emission;
 use crate::accel::{Accel, InstructionSet};
 use crate::clock::Stopwatch;
 use crate::interaction::LastVertex;
-use crate::light::{AreaLight, Light};
+use crate::light::{AreaLight, Light, TexturedAreaLight};
 use crate::material::{Material, MatteMaterial};
 use crate::params::quoted;
 use crate::shape::{MeshError, TriangleMesh};
 use crate::spectrum::Spectrum;
+use crate::texture::{Texture, TextureHandle};
 
 /// Why a scene cannot be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -34,7 +35,7 @@ pub enum SceneError {
     /// More triangles than [`Accel::MAX_TRIANGLES`].
     #[error("the scene has {0} triangles, more than {max}", max = Accel::MAX_TRIANGLES)]
     TooManyTriangles(usize),
-    /// An [`Emission`] is negative or not finite.
+    /// An [`Emission`] that is the same everywhere is negative or not finite.
     #[error(
         "shape {} emits {radiance:?}: each band has to be finite and at least 0",
         quoted(shape)
@@ -60,7 +61,7 @@ pub enum SceneError {
 
 /// Emission of a shape, before `build`.
 enum NewEmission {
-    Constant(Emission),
+    Own(Emission<TextureHandle<Spectrum>>),
     Light(Arc<dyn Light>),
 }
 
@@ -110,7 +111,7 @@ impl SceneBuilder {
         mesh: TriangleMesh,
         material: impl Into<String>,
     ) -> Self {
-        self.add_shape(name.into(), mesh, Some(material.into()), None)
+        self.add_shape(name.into(), mesh, Some(material.into()), None::<Emission>)
     }
 
     /// Adds a mesh in world space whose triangles differ in material: for each, an index into `materials`.
@@ -127,7 +128,12 @@ impl SceneBuilder {
     }
 
     /// Adds a mesh in world space that emits light and reflects none.
-    pub fn lamp(self, name: impl Into<String>, mesh: TriangleMesh, emission: Emission) -> Self {
+    pub fn lamp(
+        self,
+        name: impl Into<String>,
+        mesh: TriangleMesh,
+        emission: Emission<impl Texture<Spectrum> + 'static>,
+    ) -> Self {
         self.add_shape(name.into(), mesh, None, Some(emission))
     }
 
@@ -137,7 +143,7 @@ impl SceneBuilder {
         name: impl Into<String>,
         mesh: TriangleMesh,
         material: impl Into<String>,
-        emission: Emission,
+        emission: Emission<impl Texture<Spectrum> + 'static>,
     ) -> Self {
         self.add_shape(name.into(), mesh, Some(material.into()), Some(emission))
     }
@@ -147,9 +153,11 @@ impl SceneBuilder {
         name: String,
         mesh: TriangleMesh,
         material: Option<String>,
-        emission: Option<Emission>,
+        emission: Option<Emission<impl Texture<Spectrum> + 'static>>,
     ) -> Self {
-        let emission = emission.map(NewEmission::Constant);
+        let emission = emission.map(|Emission { radiance, two_sided }| {
+            NewEmission::Own(Emission { radiance: radiance.into_handle(), two_sided })
+        });
         let material = NewMaterial::Everywhere(material);
         self.shapes.push(NewShape { name, mesh, material, emission });
         self
@@ -196,19 +204,13 @@ impl SceneBuilder {
         let mut known = Known { all: self.materials, used: Vec::new(), indices: BTreeMap::new() };
         for NewShape { name, mesh, material, emission } in self.shapes {
             mesh.check().map_err(|error| SceneError::Mesh(name.clone(), error))?;
-            if let Some(NewEmission::Constant(Emission { radiance, .. })) = emission
-                && !radiance.is_valid()
+            if let Some(NewEmission::Own(Emission { radiance, .. })) = &emission
+                && let Some(radiance) = radiance.constant().filter(|radiance| !radiance.is_valid())
             {
                 return Err(SceneError::Emission { shape: name, radiance: radiance.to_array() });
             }
             let (material, materials) = known.of_shape(&name, material, mesh.indices.len())?;
-            // A mesh without area neither is visible nor emits.
-            let light: Option<Arc<dyn Light>> = emission.and_then(|emission| match emission {
-                NewEmission::Constant(Emission { radiance, two_sided }) => {
-                    AreaLight::new(&mesh, radiance, two_sided).map(|light| Arc::new(light) as _)
-                }
-                NewEmission::Light(light) => Some(light),
-            });
+            let light = emission.and_then(|emission| light_of(shapes.len(), &mesh, emission));
             let light = light.map(|light| {
                 lights.push(light);
                 lights.len() - 1
@@ -232,6 +234,20 @@ impl SceneBuilder {
             accel,
             build_seconds: start.seconds(),
         })
+    }
+}
+
+/// The light of the shape of this index. A mesh without area neither is visible nor emits.
+fn light_of(shape: usize, mesh: &TriangleMesh, emission: NewEmission) -> Option<Arc<dyn Light>> {
+    match emission {
+        NewEmission::Own(Emission { radiance, two_sided }) => match radiance.constant() {
+            Some(radiance) => Some(Arc::new(AreaLight::new(mesh, radiance, two_sided)?)),
+            None => {
+                let light = TexturedAreaLight::on_shape(shape as u32, mesh, radiance, two_sided);
+                Some(Arc::new(light?))
+            }
+        },
+        NewEmission::Light(light) => Some(light),
     }
 }
 
