@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use glam::{Vec2, Vec3};
 
 use super::block::{WideLight, sample_wide};
-use super::emissive_mesh::{EmissiveMesh, triangle_area, with_area};
+use super::emissive_mesh::{Areas, EmissiveMesh, triangle_area, with_area};
 use super::{BoundingSphere, Light, LightBounds, LightHit, LightSample, LightSamples, Receivers};
 use crate::sampling::Discrete;
 use crate::shape::TriangleMesh;
@@ -26,8 +26,6 @@ use crate::spectrum::Spectrum;
 pub struct AreaLight {
     /// Triangles of non-zero area, each selected in proportion to it.
     mesh: EmissiveMesh,
-    /// Total area, in squared scene units.
-    area: f64,
     radiance: Spectrum,
 }
 
@@ -44,15 +42,14 @@ impl AreaLight {
         };
         let areas = || (0..mesh.indices.len()).map(|t| triangle_area(mesh.corners(t)));
         let triangles = Discrete::new(areas())?;
-        let area = areas().sum();
-        Some(Self { mesh: EmissiveMesh::new(mesh, triangles, two_sided), area, radiance })
+        let areas = Areas { all: areas().sum(), ..Areas::default() };
+        Some(Self { mesh: EmissiveMesh::new(mesh, triangles, areas, two_sided), radiance })
     }
 
     /// [`sample_li`](Light::sample_li) where f32 is not precise enough, or if the light is no rectangle: in f64 by solid
     /// angle, or else by area.
     fn sample_precisely(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
-        let sampled = self.mesh.sample(p, u, |_| self.area)?;
-        LightSample::from_surface(p, sampled.point, sampled.n, self.radiance, sampled.pdf)
+        self.mesh.sample(p, u, self.radiance).map(|(sample, _)| sample)
     }
 }
 
@@ -74,7 +71,7 @@ impl Light for AreaLight {
 
     #[inline]
     fn pdf_li(&self, hit: &LightHit) -> f32 {
-        self.mesh.pdf(hit, self.area)
+        self.mesh.pdf(hit, self.mesh.areas().all)
     }
 
     /// The light's radiance, if the ray arrives on a side that emits.
@@ -85,7 +82,7 @@ impl Light for AreaLight {
 
     /// π A L, twice that for both sides.
     fn power(&self, _scene: &BoundingSphere) -> Option<Spectrum> {
-        Some(self.radiance * (self.mesh.sides() * PI * self.area as f32))
+        Some(self.radiance * (self.mesh.sides() * PI * self.mesh.areas().all as f32))
     }
 
     fn bounds(&self) -> Option<LightBounds> {

@@ -5,7 +5,7 @@ use glam::{DVec3, Vec2, Vec3};
 use super::block::{Incident, WideLight};
 use super::rectangle::Rectangle;
 use super::sample::end_of_shadow_ray;
-use super::{LightBounds, LightHit};
+use super::{LightBounds, LightHit, LightSample};
 use crate::geometry::{BoundedPoint, Xyz, unit_wide};
 use crate::sampling::{Discrete, uniform_triangle};
 use crate::shape::{TriangleMesh, triangle_normal};
@@ -19,26 +19,33 @@ pub(super) struct EmissiveMesh {
     mesh: TriangleMesh,
     /// Selects a triangle.
     triangles: Discrete,
+    areas: Areas,
     rectangle: Option<Rectangle>,
     two_sided: bool,
 }
 
-/// A point that was sampled for a receiver.
-pub(super) struct SampledPoint {
-    pub point: BoundedPoint,
-    /// Unit outward normal.
-    pub n: Vec3,
-    /// Density over solid angle.
-    pub pdf: f32,
-    /// Triangle and barycentrics; `None` for a point that was sampled on the rectangle.
-    pub place: Option<(usize, [f32; 3])>,
+/// The area of each triangle over the probability that it is selected, in squared scene units.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Areas {
+    /// Of all triangles, if they are selected by area: the total area.
+    pub all: f64,
+    /// Of each triangle; empty if they are selected by area. Infinite for those that never are.
+    pub each: Box<[f64]>,
 }
+
+/// A triangle and barycentrics.
+pub(super) type Place = (usize, [f32; 3]);
 
 impl EmissiveMesh {
     /// Triangles are selected by `triangles`, and points on them uniformly by area; all of a flat rectangle uniformly by solid angle.
-    pub(super) fn new(mesh: TriangleMesh, triangles: Discrete, two_sided: bool) -> Self {
+    pub(super) fn new(
+        mesh: TriangleMesh,
+        triangles: Discrete,
+        areas: Areas,
+        two_sided: bool,
+    ) -> Self {
         let rectangle = find_rectangle(&mesh, two_sided);
-        Self { mesh, triangles, rectangle, two_sided }
+        Self { mesh, triangles, areas, rectangle, two_sided }
     }
 
     #[inline]
@@ -51,15 +58,15 @@ impl EmissiveMesh {
         if self.two_sided { 2.0 } else { 1.0 }
     }
 
-    /// The probability that a triangle is selected.
-    pub(super) fn probability(&self, triangle: usize) -> f32 {
-        self.triangles.probability(triangle)
+    #[inline]
+    pub(super) fn areas(&self) -> &Areas {
+        &self.areas
     }
 
     /// A point sampled uniformly on a triangle that is selected at random: triangle and barycentrics, the point, and the unit
     /// outward normal there.
     #[inline]
-    fn sample_area(&self, u: Vec2) -> ((usize, [f32; 3]), BoundedPoint, Vec3) {
+    fn sample_area(&self, u: Vec2) -> (Place, BoundedPoint, Vec3) {
         let (triangle, _, rest) = self.triangles.sample(u.x);
         let b = uniform_triangle::sample(Vec2::new(rest, u.y));
         let b = [b.x, b.y, (1.0 - b.x - b.y).max(0.0)];
@@ -77,22 +84,23 @@ impl EmissiveMesh {
         self.rectangle.as_ref().map(|rectangle| OnRectangle { rectangle, radiance, two_sided })
     }
 
-    /// A point that shines on `p`, sampled in f64 by solid angle if the mesh is a rectangle that is not too small, or else by area.
-    /// `area` is that of a triangle over the probability that it is selected, in squared scene units.
-    #[inline]
+    /// Light of radiance `li` from a point that shines on `p`, sampled in f64 by solid angle if the mesh is a rectangle that is not too
+    /// small, or else by area; and the point's place, unless it was sampled on the rectangle.
+    // One copy for all kinds of lights, into which all that it calls is inlined.
+    #[inline(never)]
     pub(super) fn sample(
         &self,
         p: Vec3,
         u: Vec2,
-        area: impl FnOnce(usize) -> f64,
-    ) -> Option<SampledPoint> {
+        li: Spectrum,
+    ) -> Option<(LightSample, Option<Place>)> {
         let on_rectangle = self.rectangle.as_ref().and_then(|rectangle| {
             let (point, pdf, outside) = rectangle.sample(p, u)?;
             Some((point, rectangle.normal(), pdf, outside))
         });
-        match on_rectangle {
-            Some((.., false)) if !self.two_sided => None,
-            Some((point, n, pdf, _)) => Some(SampledPoint { point, n, pdf, place: None }),
+        let (point, n, pdf, place) = match on_rectangle {
+            Some((.., false)) if !self.two_sided => return None,
+            Some((point, n, pdf, _)) => (point, n, pdf, None),
             None => {
                 let (place, point, n) = self.sample_area(u);
                 let to_light = point.p - p;
@@ -101,13 +109,14 @@ impl EmissiveMesh {
                 if !self.shines(cos_theta) {
                     return None;
                 }
-                let pdf = pdf_by_area(distance, cos_theta, area(place.0));
-                Some(SampledPoint { point, n, pdf, place: Some(place) })
+                let area = *self.areas.each.get(place.0).unwrap_or(&self.areas.all);
+                (point, n, pdf_by_area(distance, cos_theta, area), Some(place))
             }
-        }
+        };
+        Some((LightSample::from_surface(p, point, n, li, pdf)?, place))
     }
 
-    /// Density over solid angle with which [`sample`](Self::sample) at the hit's origin finds the hit. `area` as there.
+    /// Density over solid angle with which [`sample`](Self::sample) at the hit's origin finds the hit. `area` is one of [`Areas`].
     #[inline]
     pub(super) fn pdf(&self, hit: &LightHit, area: f64) -> f32 {
         let pdf = match self.rectangle.as_ref().and_then(|rectangle| rectangle.pdf(hit.origin)) {

@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use glam::{Vec2, Vec3};
 
 use super::block::{WideLight, sample_wide};
-use super::emissive_mesh::{EmissiveMesh, triangle_area, with_area};
+use super::emissive_mesh::{Areas, EmissiveMesh, Place, triangle_area, with_area};
 use super::{BoundingSphere, Light, LightBounds, LightHit, LightSample, LightSamples, Receivers};
 use crate::interaction::{SurfaceInteraction, SurfacePlace};
 use crate::sampling::{Discrete, uniform_triangle};
@@ -57,8 +57,6 @@ const SHARED_POINTS: f64 = 65_536.0;
 pub struct TexturedAreaLight {
     /// All triangles of the shape, so that hits tell them by index.
     mesh: EmissiveMesh,
-    /// Of each triangle: its area over the probability that it is selected, in squared scene units. Infinite if it never is.
-    areas: Box<[f64]>,
     /// The first triangles that have an area: those of a rectangle.
     pair: [usize; 2],
     radiance: TextureHandle<Spectrum>,
@@ -109,40 +107,38 @@ impl TexturedAreaLight {
             if is_lit { BY_AREA * by_area + (1.0 - BY_AREA) * power / sum } else { by_area }
         });
         let triangles = Discrete::new(weights)?;
-        let mesh = EmissiveMesh::new(mesh.clone(), triangles, two_sided);
         for (t, area) in areas.iter_mut().enumerate() {
-            let probability = f64::from(mesh.probability(t));
+            let probability = f64::from(triangles.probability(t));
             *area = if probability > 0.0 { *area / probability } else { f64::INFINITY };
         }
-        Some(Self { mesh, areas: areas.into(), pair, radiance, integral, shape })
+        let areas = Areas { all: total, each: areas.into() };
+        let mesh = EmissiveMesh::new(mesh.clone(), triangles, areas, two_sided);
+        Some(Self { mesh, pair, radiance, integral, shape })
     }
 
     /// The radiance at a point of a triangle, towards the unit direction `wo`.
     #[inline]
-    fn radiance(&self, (triangle, b): (usize, [f32; 3]), wo: Vec3) -> Spectrum {
+    fn radiance(&self, (triangle, b): Place, wo: Vec3) -> Spectrum {
         let place = SurfacePlace { shape: self.shape, triangle: triangle as u32, b };
         radiance_at(&self.radiance, self.mesh.mesh(), place, wo)
     }
 
     /// [`sample_li`](Light::sample_li) where f32 is not precise enough, or if the light is no rectangle.
     fn sample_precisely(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
-        let sampled = self.mesh.sample(p, u, |triangle| self.areas[triangle])?;
-        let sample =
-            LightSample::from_surface(p, sampled.point, sampled.n, Spectrum::BLACK, sampled.pdf)?;
-        let place = sampled.place.unwrap_or_else(|| self.on_pair(sampled.point.p));
-        Some(LightSample { li: self.radiance(place, -sample.wi), ..sample })
+        let (sample, place) = self.mesh.sample(p, u, Spectrum::BLACK)?;
+        Some(self.lit(sample, place))
     }
 
-    /// A sample on the rectangle, with its radiance.
+    /// A sample with its radiance. `place` is `None` on the rectangle.
     #[inline]
-    fn lit(&self, sample: LightSample) -> LightSample {
+    fn lit(&self, sample: LightSample, place: Option<Place>) -> LightSample {
         // The end of the shadow ray is the point, moved along the normal.
-        let place = self.on_pair(sample.from.unwrap_or_default());
+        let place = place.unwrap_or_else(|| self.on_pair(sample.from.unwrap_or_default()));
         LightSample { li: self.radiance(place, -sample.wi), ..sample }
     }
 
     /// Triangle and barycentrics of a point on the rectangle.
-    fn on_pair(&self, p: Vec3) -> (usize, [f32; 3]) {
+    fn on_pair(&self, p: Vec3) -> Place {
         let [first, second] = self.pair.map(|t| (t, barycentrics(self.mesh.mesh().corners(t), p)));
         let least = |b: [f64; 3]| b[0].min(b[1]).min(b[2]);
         let (triangle, b) = if least(first.1) >= least(second.1) { first } else { second };
@@ -162,7 +158,7 @@ impl Light for TexturedAreaLight {
         if let Some(rectangle) = self.mesh.on_rectangle(Spectrum::BLACK) {
             let (incident, imprecise) = rectangle.incident(p.into(), u.to_array());
             if !imprecise {
-                return incident.into_sample().map(|sample| self.lit(sample));
+                return incident.into_sample().map(|sample| self.lit(sample, None));
             }
         }
         self.sample_precisely(p, u)
@@ -171,7 +167,7 @@ impl Light for TexturedAreaLight {
     /// NaN without [`LightHit::surface`]: the density depends on the triangle.
     fn pdf_li(&self, hit: &LightHit) -> f32 {
         let place = hit.surface.and_then(SurfaceInteraction::place);
-        let area = place.and_then(|place| self.areas.get(place.triangle as usize));
+        let area = place.and_then(|place| self.mesh.areas().each.get(place.triangle as usize));
         area.map_or(f32::NAN, |area| self.mesh.pdf(hit, *area))
     }
 
@@ -201,7 +197,7 @@ impl Light for TexturedAreaLight {
         for i in 0..receivers.len() {
             let sample = match imprecise[i] {
                 true => self.sample_precisely(receivers.p(i), receivers.u(i)),
-                false => samples.get(i).map(|sample| self.lit(sample)),
+                false => samples.get(i).map(|sample| self.lit(sample, None)),
             };
             samples.set(i, sample);
         }
@@ -215,7 +211,6 @@ fn emitted(value: Spectrum) -> Spectrum {
 }
 
 /// The radiance at a point of a mesh towards the unit direction `wo`.
-#[inline]
 fn radiance_at(
     radiance: &TextureHandle<Spectrum>,
     mesh: &TriangleMesh,

@@ -131,8 +131,8 @@ fn textured_lamps_have_one_value() {
     moon.positions.iter_mut().for_each(|p| *p = *p * 0.6 + Vec3::new(-1.6, -0.8, -1.2));
     moon.normals = ball(6).positions;
     let by_place = |si: &SurfaceInteraction| {
-        let dark = si.place().is_some_and(|place| place.triangle % 3 == 0 || place.shape == 0);
-        Spectrum::new(7.0, 5.0, 3.0) * f32::from(u8::from(!dark))
+        let dark = si.place().is_some_and(|place| place.triangle % 3 != 0 || place.shape == 0);
+        Spectrum::new(14.0, 10.0, 6.0) * f32::from(u8::from(!dark))
     };
     let by_uv = |si: &SurfaceInteraction| {
         let stripe = (8.0 * si.uv().x).floor() as u32 % 2;
