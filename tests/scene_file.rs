@@ -184,6 +184,27 @@ fn a_file_with_light_gives_its_scene() {
     assert!(lamp.sample_li(Vec3::Y * 4.0, Vec2::splat(0.5)).is_none());
 }
 
+/// A texture that is the same everywhere makes the light that a constant makes, with the same bits; others have a density by triangle.
+/// Caught: constant textures that are lights of textures.
+#[test]
+fn a_lamp_of_a_constant_texture_is_one_of_a_constant() {
+    let texture = "[texture.t]\ntype = \"constant\"\nvalue = [4, 2, 1]\n[texture.c]\ntype = \"checkerboard\"\nfirst = [4, 2, 1]\nsecond = [0, 0, 0]\n";
+    // No rectangle.
+    let shape = "[shape.lamp]\ntype = \"rectangle\"\ncorner = [-1, 2, -1]\nedges = [[2, 0, 0], [1, 0, 2]]\n";
+    let [constant, textured, varying] = ["[4, 2, 1]", "\"t\"", "\"c\""].map(|emission| {
+        let scene = parse(&format!("{texture}{shape}emission = {emission}\n"), &[]).unwrap().scene;
+        scene.lights()[0].clone()
+    });
+    for i in 0..100 {
+        let u = Vec2::new((i % 10) as f32, (i / 10) as f32) / 10.0;
+        assert_eq!(constant.sample_li(Vec3::ZERO, u), textured.sample_li(Vec3::ZERO, u));
+    }
+    // Without a place no triangle is known.
+    let hit = LightHit::new(Vec3::ZERO, Vec3::Y, 2.0, Vec3::NEG_Y);
+    assert_eq!(constant.pdf_li(&hit), textured.pdf_li(&hit));
+    assert!(varying.pdf_li(&hit).is_nan());
+}
+
 #[test]
 fn everything_has_a_default_in_an_empty_file() {
     for text in ["", "\u{FEFF}", "[camera]\n[film]\n[sampler]\n[integrator]\n[shape]\n[light]\r\n"]
@@ -529,6 +550,22 @@ fn values_out_of_range() {
         (
             "[shape.s]\nobj = \"a.obj\"\nemission = [1, -1, 1]",
             "s.toml:3:12: `shape.s.emission` is [1, -1, 1], expected [red, green, blue], each a finite number of at least 0",
+        ),
+        (
+            "[shape.s]\nobj = \"a.obj\"\nemission = \"glow\"",
+            "s.toml:3:12: the scene has no texture `glow`",
+        ),
+        (
+            "[texture.t]\ntype = \"checkerboard\"\nfirst = 0\nsecond = 1\n[shape.s]\nemission = \"t\"",
+            "s.toml:6:12: `shape.s.emission` is the texture \"t\", of numbers, expected [red, green, blue], each a finite number of at least 0",
+        ),
+        (
+            "[texture.t]\ntype = \"constant\"\nvalue = [1, -1, 1]\n[shape.s]\nemission = \"t\"",
+            "s.toml:5:12: `shape.s.emission` is the texture \"t\", [1, -1, 1], expected [red, green, blue], each a finite number of at least 0",
+        ),
+        (
+            "[shape.s]\nemission = true",
+            "s.toml:2:12: `shape.s.emission` is true, expected a texture's name or [red, green, blue], each a finite number of at least 0",
         ),
         (
             "[film]\nfilter = \"tent\"\nfilter_radius = 0",

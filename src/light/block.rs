@@ -273,7 +273,8 @@ mod tests {
     use std::array::from_fn;
 
     use super::*;
-    use crate::light::{AreaLight, Light, PointLight, SkyLight, SpotLight};
+    use crate::interaction::SurfaceInteraction;
+    use crate::light::{AreaLight, Light, PointLight, SkyLight, SpotLight, TexturedAreaLight};
     use crate::shape::TriangleMesh;
 
     /// Pseudorandom numbers in `[0, 1)`, of 24 bits.
@@ -286,8 +287,8 @@ mod tests {
     }
 
     /// Points around lights of all kinds, on both sides of a lamp, some of them where f32 is not precise enough; blocks of all
-    /// lengths. Seen to fail with the sides exchanged, with a density that is not the scalar one's, and with the last lanes
-    /// left out.
+    /// lengths. Seen to fail with the sides exchanged, with a density that is not the scalar one's, with the last lanes
+    /// left out, and with imprecise points of textured lamps left as they are.
     #[test]
     fn samples_of_a_block_are_those_of_one_to_the_bit() {
         let lamp = TriangleMesh::parallelogram(Vec3::new(0.3, 1.0, 0.1), Vec3::X, 2.0 * Vec3::Z);
@@ -295,6 +296,8 @@ mod tests {
         bent.positions[2].y += 0.5;
         let l = Spectrum::new(3.0, 2.0, 1.0);
         let area = |mesh, two_sided| AreaLight::new(mesh, l, two_sided).unwrap();
+        let uv = |si: &SurfaceInteraction| Spectrum::new(si.uv().x, si.uv().y, 1.0);
+        let textured = |mesh, two_sided| TexturedAreaLight::new(mesh, uv, two_sided).unwrap();
         let position = Vec3::new(0.5, 1.0, -0.5);
         // So small and so far that squares of distances are not precise.
         let scaled = |scale: f32| {
@@ -302,7 +305,7 @@ mod tests {
             mesh.positions.iter_mut().for_each(|p| *p *= scale);
             mesh
         };
-        let lights: [&dyn Light; 9] = [
+        let lights: [&dyn Light; 13] = [
             &PointLight::new(position, l),
             &SpotLight::new(position, Vec3::NEG_ONE, l, 70.0, 30.0).unwrap(),
             &SkyLight::new(l),
@@ -312,6 +315,10 @@ mod tests {
             &area(&bent, true),
             &area(&scaled(1e-21), true),
             &area(&scaled(1e17), true),
+            &textured(&lamp, false),
+            &textured(&bent, true),
+            &textured(&scaled(1e-21), true),
+            &textured(&scaled(1e17), true),
         ];
         let mut next = random_numbers();
         let mut missing = 0;

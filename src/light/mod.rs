@@ -19,6 +19,7 @@ mod area;
 mod block;
 mod bounds;
 mod distant;
+mod emissive_mesh;
 mod environment;
 mod light_sampler;
 mod point;
@@ -27,6 +28,7 @@ mod sample;
 mod sky;
 mod spot;
 mod strategy;
+mod textured_area;
 mod traits;
 mod tree;
 
@@ -41,6 +43,7 @@ pub use sample::{LightHit, LightSample};
 pub use sky::SkyLight;
 pub use spot::SpotLight;
 pub use strategy::LightStrategy;
+pub use textured_area::TexturedAreaLight;
 pub use traits::{BoundingSphere, Light, Read};
 
 use crate::params::Kind;

@@ -11,7 +11,7 @@
 //! The first row that fits holds. An index that is missing, at most 1 or above 10 is 1.5, and a missing `Kd` is 0.5. Roughness is `Pr`, perceptual, or α = √(2 / (Ns + 2)) from Phong's exponent `Ns` (Walter et al. 2007, section 5.2), else 0.
 //! Where the opacity, `d` or 1 - `Tr`, is below 1 and there is no glass, the rest of the material is a thin pane, through which light goes straight:
 //! of index `Ni` if there is `Ks`, else one that reflects nothing; what it lets through is scaled by `Tf`.
-//! `map_Kd` is multiplied by `Kd`, unless that is black; `map_Pr` and `map_Pm` by `Pr` and `Pm`, unless these are 0. `map_Bump` times `-bm` is a
+//! `map_Kd` is multiplied by `Kd`, unless that is black, and `map_Ke` by `Ke`; `map_Pr` and `map_Pm` by `Pr` and `Pm`, unless these are 0. `map_Bump` times `-bm` is a
 //! displacement in scene units, `norm` are normals, and rays pass where `map_d` is 0.
 
 use std::path::Path;
@@ -125,20 +125,24 @@ impl MtlMaterials<'_> {
         Arc::new(detailed)
     }
 
-    /// The emitted radiance: `Ke` times the mean of `map_Ke`, and what was left out of it.
-    pub fn emission(&self, mtl: &MtlMaterial) -> (Spectrum, Option<Note>) {
-        let Some(map) = &mtl.map_ke else {
-            return (mtl.ke.unwrap_or_default().into(), None);
-        };
-        let ke = Spectrum::from(mtl.ke.unwrap_or([1.0; 3]));
+    /// The emitted radiance: `Ke` times `map_Ke`, and what was left out of it. Black is a constant.
+    pub fn emission(&self, mtl: &MtlMaterial) -> (TextureHandle<Spectrum>, Vec<Note>) {
         let mut notes = Vec::new();
-        match self.found(map, Curve::Srgb, &mut notes) {
-            Some(image) => {
-                let note = "lamps have one colour: map_Ke is its mean".to_owned();
-                (ke * image.mean_color(), Some(note))
-            }
-            None => (mtl.ke.unwrap_or_default().into(), notes.pop()),
+        let ke = mtl.ke.map(Spectrum::from);
+        let alone = ke.unwrap_or_default();
+        let Some(map) = &mtl.map_ke else { return (alone.into_handle(), notes) };
+        if ke == Some(Spectrum::BLACK) {
+            notes.push("map_Ke times a black Ke emits nothing".into());
+            return (alone.into_handle(), notes);
         }
+        let emission = match self.found(map, Curve::Srgb, &mut notes) {
+            None => alone.into_handle(),
+            Some(image) if image.is_black() && map.base_gain[0] <= 0.0 => {
+                Spectrum::BLACK.into_handle()
+            }
+            Some(image) => scaled(with_base_and_gain(image, map), ke),
+        };
+        (emission, notes)
     }
 
     fn roughness(&self, mtl: &MtlMaterial, notes: &mut Vec<Note>) -> Roughness {
@@ -197,20 +201,11 @@ impl MtlMaterials<'_> {
         let given = color.map(Spectrum::from);
         let color = given.unwrap_or(without);
         let Some(map) = map else { return color.into_handle() };
-        let image = match self.found(map, Curve::Srgb, notes) {
-            None => return color.into_handle(),
-            Some(image) if map.base_gain == [0.0, 1.0] => image.into_handle(),
+        match self.found(map, Curve::Srgb, notes) {
+            None => color.into_handle(),
             Some(image) => {
-                let [base, gain] = map.base_gain;
-                let changed = move |si: &SurfaceInteraction| {
-                    Spectrum::splat(base) + image.evaluate(si) * gain
-                };
-                changed.into_handle()
+                scaled(with_base_and_gain(image, map), given.filter(|color| !color.is_black()))
             }
-        };
-        match given.filter(|color| !color.is_black() && *color != Spectrum::WHITE) {
-            Some(color) => ProductTexture::new(image, color).into_handle(),
-            None => image,
         }
     }
 
@@ -224,6 +219,23 @@ impl MtlMaterials<'_> {
         let image = ImageTexture::new(self.textures.image(&path, curve)?);
         let image = image.with_mapping(mapping);
         Ok(if map.is_clamped { image.with_wrap(Wrap::Clamp) } else { image })
+    }
+}
+
+/// Colours of an image after `-mm`.
+fn with_base_and_gain(image: ImageTexture, map: &MtlMap) -> TextureHandle<Spectrum> {
+    let [base, gain] = map.base_gain;
+    if [base, gain] == [0.0, 1.0] {
+        return image.into_handle();
+    }
+    (move |si: &SurfaceInteraction| Spectrum::splat(base) + image.evaluate(si) * gain).into_handle()
+}
+
+/// The texture times a colour, if there is one that changes it.
+fn scaled(texture: TextureHandle<Spectrum>, color: Option<Spectrum>) -> TextureHandle<Spectrum> {
+    match color.filter(|color| *color != Spectrum::WHITE) {
+        Some(color) => ProductTexture::new(texture, color).into_handle(),
+        None => texture,
     }
 }
 

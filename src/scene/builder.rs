@@ -14,10 +14,11 @@ use super::settings::Emission;
 use crate::accel::{Accel, InstructionSet};
 use crate::clock::Stopwatch;
 use crate::interaction::Surfaces;
-use crate::light::{AreaLight, Light};
+use crate::light::{AreaLight, Light, TexturedAreaLight};
 use crate::material::{Material, MatteMaterial};
 use crate::shape::TriangleMesh;
 use crate::spectrum::Spectrum;
+use crate::texture::Texture;
 
 /// Collects the parts of a [`Scene`] in any order. [`build`](Self::build) checks them.
 #[derive(Default)]
@@ -50,7 +51,7 @@ impl SceneBuilder {
         mesh: TriangleMesh,
         material: impl Into<String>,
     ) -> Self {
-        self.add_shape(name.into(), mesh, Some(material.into()), None)
+        self.add_shape(name.into(), mesh, Some(material.into()), None::<Emission>)
     }
 
     /// Adds a mesh in world space whose triangles differ in material: for each, an index into `materials`.
@@ -67,7 +68,12 @@ impl SceneBuilder {
     }
 
     /// Adds a mesh in world space that emits light and reflects none.
-    pub fn lamp(self, name: impl Into<String>, mesh: TriangleMesh, emission: Emission) -> Self {
+    pub fn lamp(
+        self,
+        name: impl Into<String>,
+        mesh: TriangleMesh,
+        emission: Emission<impl Texture<Spectrum> + 'static>,
+    ) -> Self {
         self.add_shape(name.into(), mesh, None, Some(emission))
     }
 
@@ -77,7 +83,7 @@ impl SceneBuilder {
         name: impl Into<String>,
         mesh: TriangleMesh,
         material: impl Into<String>,
-        emission: Emission,
+        emission: Emission<impl Texture<Spectrum> + 'static>,
     ) -> Self {
         self.add_shape(name.into(), mesh, Some(material.into()), Some(emission))
     }
@@ -87,9 +93,11 @@ impl SceneBuilder {
         name: String,
         mesh: TriangleMesh,
         material: Option<String>,
-        emission: Option<Emission>,
+        emission: Option<Emission<impl Texture<Spectrum> + 'static>>,
     ) -> Self {
-        let emission = emission.map(NewEmission::Constant);
+        let emission = emission.map(|Emission { radiance, two_sided }| {
+            NewEmission::Own(Emission { radiance: radiance.into_handle(), two_sided })
+        });
         let material = NewMaterial::Everywhere(material);
         self.shapes.push(NewShape { name, mesh, material, emission });
         self
@@ -151,19 +159,13 @@ impl SceneBuilder {
         let mut lights = self.lights;
         let mut known = Known { all: self.materials, used: Vec::new(), indices: BTreeMap::new() };
         for NewShape { name, mesh, material, emission } in self.shapes {
-            if let Some(NewEmission::Constant(Emission { radiance, .. })) = emission
-                && !radiance.is_valid()
+            if let Some(NewEmission::Own(Emission { radiance, .. })) = &emission
+                && let Some(radiance) = radiance.constant().filter(|radiance| !radiance.is_valid())
             {
                 return Err(SceneError::Emission { shape: name, radiance: radiance.to_array() });
             }
             let (material, materials) = known.of_shape(&name, material, mesh.indices.len())?;
-            // A mesh without area neither is visible nor emits.
-            let light: Option<Arc<dyn Light>> = emission.and_then(|emission| match emission {
-                NewEmission::Constant(Emission { radiance, two_sided }) => {
-                    AreaLight::new(&mesh, radiance, two_sided).map(|light| Arc::new(light) as _)
-                }
-                NewEmission::Light(light) => Some(light),
-            });
+            let light = emission.and_then(|emission| light_of(shapes.len(), &mesh, emission));
             let light = light.map(|light| {
                 lights.push(light);
                 lights.len() - 1
@@ -187,6 +189,20 @@ impl SceneBuilder {
             accel,
             build_seconds: start.seconds(),
         })
+    }
+}
+
+/// The light of the shape of this index. A mesh without area neither is visible nor emits.
+fn light_of(shape: usize, mesh: &TriangleMesh, emission: NewEmission) -> Option<Arc<dyn Light>> {
+    match emission {
+        NewEmission::Own(Emission { radiance, two_sided }) => match radiance.constant() {
+            Some(radiance) => Some(Arc::new(AreaLight::new(mesh, radiance, two_sided)?)),
+            None => {
+                let light = TexturedAreaLight::on_shape(shape as u32, mesh, radiance, two_sided);
+                Some(Arc::new(light?))
+            }
+        },
+        NewEmission::Light(light) => Some(light),
     }
 }
 

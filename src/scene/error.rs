@@ -23,7 +23,7 @@ pub enum SceneError {
     /// More triangles than [`Accel::MAX_TRIANGLES`].
     #[error("the scene has {0} triangles, more than {max}", max = Accel::MAX_TRIANGLES)]
     TooManyTriangles(usize),
-    /// An [`Emission`] is negative or not finite.
+    /// An [`Emission`](super::Emission) that is the same everywhere is negative or not finite.
     #[error(
         "shape {} emits {radiance:?}: each band has to be finite and at least 0",
         quoted(shape)

@@ -5,11 +5,13 @@ use std::sync::Arc;
 use super::settings::Emission;
 use crate::light::Light;
 use crate::shape::TriangleMesh;
+use crate::spectrum::Spectrum;
+use crate::texture::TextureHandle;
 
 /// Emission of a shape, before `build`.
 #[derive(Clone)]
 pub(super) enum NewEmission {
-    Constant(Emission),
+    Own(Emission<TextureHandle<Spectrum>>),
     Light(Arc<dyn Light>),
 }
 

@@ -56,11 +56,12 @@ impl Default for FilmSettings {
     }
 }
 
-/// Emission of a surface, the same in all directions.
+/// Emission of a surface, the same in all directions: a constant or a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Emission {
-    /// Radiance in W / (m² sr), at least 0 in each band.
-    pub radiance: Spectrum,
+pub struct Emission<R = Spectrum> {
+    /// Radiance in W / (m² sr), at least 0 in each band: a [`Spectrum`], or a texture of them, which is not filtered (see
+    /// [`TexturedAreaLight`](crate::light::TexturedAreaLight)).
+    pub radiance: R,
     /// Whether both sides emit, or only the outer one: see [`AreaLight`](crate::light::AreaLight).
     pub two_sided: bool,
 }

@@ -17,7 +17,8 @@ use crate::render::{RenderSettings, SamplerSettings};
 use crate::sampling::SamplerKind;
 use crate::scene::{Emission, FilmSettings, Scene, SceneBuilder, SceneError, View};
 use crate::shape::{Load, ObjMesh, ObjReport};
-use crate::texture::Textures;
+use crate::spectrum::Spectrum;
+use crate::texture::{TextureHandle, Textures};
 
 /// A scene before its meshes are loaded. Lists are in the order of the file.
 pub struct Description {
@@ -44,7 +45,7 @@ struct Shape {
     material: Option<(String, Mark)>,
     /// What is wrong if there is no material, and faces name none either; `None` for an emitter, which may reflect nothing.
     missing: Option<Fault>,
-    emission: Option<Emission>,
+    emission: Option<Emission<TextureHandle<Spectrum>>>,
     /// Whether faces with a lamp's material emit on both sides.
     two_sided: bool,
     /// From mesh to world space.
@@ -76,16 +77,11 @@ pub fn describe(document: &Document) -> Result<Description, Fault> {
     }
     let light =
         |(_, table): (&str, Table)| sections::LIGHT.read(table, |kind, table| (kind.read)(table));
-    let shape = |(name, table): (&str, Table)| Ok((name.to_owned(), shape(table)?));
-    Ok(Description {
-        view,
-        settings,
-        materials,
-        textures,
-        lights: all(root.tables(sections::LIGHT.key)?, light)?,
-        shapes: all(root.tables(sections::SHAPE.key)?, shape)?,
-        instances: all(root.tables(sections::INSTANCE.key)?, instance)?,
-    })
+    let shape = |(name, table): (&str, Table)| Ok((name.to_owned(), shape(table, &textures)?));
+    let lights = all(root.tables(sections::LIGHT.key)?, light)?;
+    let shapes = all(root.tables(sections::SHAPE.key)?, shape)?;
+    let instances = all(root.tables(sections::INSTANCE.key)?, instance)?;
+    Ok(Description { view, settings, materials, textures, lights, shapes, instances })
 }
 
 fn all<T, U>(tables: Vec<T>, read: impl FnMut(T) -> Result<U, Fault>) -> Result<Vec<U>, Fault> {
@@ -124,10 +120,10 @@ fn sampler(table: Table) -> Result<SamplerSettings, Fault> {
     })
 }
 
-fn shape(table: Table) -> Result<Shape, Fault> {
+fn shape(table: Table, textures: &Textures) -> Result<Shape, Fault> {
     sections::SHAPE.read(table, |kind, table| {
         let two_sided = table.get(&sections::TWO_SIDED)?;
-        let emission = table.get(&sections::EMISSION)?;
+        let emission = textures.find(&table, &sections::EMISSION)?;
         let emission = emission
             .map(|radiance| Emission { radiance, two_sided: two_sided.unwrap_or_default() });
         let transform = transform(table)?;
@@ -179,7 +175,8 @@ pub fn stage(document: &Document, name: &str) -> Result<Option<Stage>, Fault> {
     let resolution = film(root.table(sections::FILM.key)?)?.resolution;
     let mut shapes = root.tables(sections::SHAPE.key)?.into_iter();
     let Some((_, table)) = shapes.find(|(known, _)| *known == name) else { return Ok(None) };
-    let Shape { load, transform, missing, .. } = shape(table)?;
+    // A model's scene has no textures, and overrides cannot add any.
+    let Shape { load, transform, missing, .. } = shape(table, &Textures::default())?;
     Ok(Some(Stage { resolution, load, transform, is_bare: missing.is_some() }))
 }
 

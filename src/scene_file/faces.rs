@@ -10,7 +10,7 @@ use crate::params::{Shown, quoted};
 use crate::scene::{Emission, SceneBuilder};
 use crate::shape::{MtlMaterial, MtlNote, ObjMaterials, TriangleMesh, read_mtl};
 use crate::spectrum::Spectrum;
-use crate::texture::Textures;
+use crate::texture::{Texture, TextureHandle, Textures};
 
 /// Finds what faces are made of: a material of the scene file with that name, else one of the OBJ file's MTL files, else grey.
 pub struct FaceMaterials<'a> {
@@ -45,7 +45,7 @@ type Library = BTreeMap<String, (usize, MtlMaterial)>;
 struct Made {
     /// Name for the builder.
     key: String,
-    emission: Option<Spectrum>,
+    emission: Option<TextureHandle<Spectrum>>,
 }
 
 impl<'a> FaceMaterials<'a> {
@@ -157,10 +157,10 @@ impl<'a> FaceMaterials<'a> {
     }
 
     /// What faces of a material emit, if they do.
-    fn emission(&mut self, file: &Path, mtl: &MtlMaterial) -> Option<Spectrum> {
-        let (emission, note) = self.materials_of(file).emission(mtl);
-        note.iter().for_each(|note| self.note(file, mtl, note));
-        (!emission.is_black()).then_some(emission)
+    fn emission(&mut self, file: &Path, mtl: &MtlMaterial) -> Option<TextureHandle<Spectrum>> {
+        let (emission, notes) = self.materials_of(file).emission(mtl);
+        notes.iter().for_each(|note| self.note(file, mtl, note));
+        (emission.constant() != Some(Spectrum::BLACK)).then_some(emission)
     }
 
     fn materials_of<'f>(&self, file: &'f Path) -> MtlMaterials<'f>

@@ -14,7 +14,7 @@ use crate::sampling::{Make, SAMPLERS};
 use crate::scene::FilmSettings;
 use crate::shape::{self, SHAPES};
 use crate::spectrum::Spectrum;
-use crate::texture::{self, TEXTURES};
+use crate::texture::{self, TEXTURES, TextureKey};
 
 /// All tables, in the order of the documentation.
 pub static SECTIONS: [&dyn AnySection; 9] =
@@ -118,8 +118,10 @@ pub const SHAPE_MATERIAL: Key<Option<String>> = Key::optional(
     MATERIAL.key,
     "name of the material; required unless the shape emits light, and a shape without one reflects nothing",
 );
-pub const EMISSION: Key<Option<Spectrum>> =
-    Key::optional("emission", "emitted radiance, in W / (m² sr)").at_least(0.0);
+pub const EMISSION: TextureKey<Option<Spectrum>> = TextureKey::of(
+    Key::optional("emission", "emitted radiance, in W / (m² sr); a texture is not filtered")
+        .at_least(0.0),
+);
 pub const TWO_SIDED: Key<Option<bool>> = Key::optional(
     "two_sided",
     "whether both sides emit, or only the outer one; if left out, lamps of MTL files emit on both, and others on one",

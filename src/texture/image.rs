@@ -112,9 +112,10 @@ impl ImageTexture {
         self.within(&self.texels, st)
     }
 
-    /// The mean of all of the image.
-    pub(crate) fn mean_color(&self) -> Spectrum {
-        self.texels.smaller().last().unwrap_or(&self.texels).at(0, 0)
+    /// Whether all of the image is black.
+    pub(crate) fn is_black(&self) -> bool {
+        let UVec2 { x, y } = self.texels.size();
+        (0..y).all(|y| (0..x).all(|x| self.texels.at(x, y).is_black()))
     }
 
     /// The same in the image or in a smaller one.

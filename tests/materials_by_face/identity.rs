@@ -132,3 +132,22 @@ fn an_identity_has_images_of_lights() {
     write_image(folder.join("sky.pfm"), &[0.25, 0.75]);
     assert_eq!(changed(&before, &identity(&folder)), ["file \"sky.pfm\""]);
 }
+
+/// Another image of a lamp is another scene, and so is a lamp of another texture. Caught: images of `map_Ke` that are read past the scene's textures.
+#[test]
+fn an_identity_has_images_of_lamps() {
+    let folder = folder("identity-lamps");
+    scene(&folder);
+    write(&folder, "m.mtl", format!("{MTL}Ke 2\nmap_Ke glow.pfm\n"));
+    let lamp = "[shape.lamp]\ntype = \"rectangle\"\ncorner = [0, 0, 3]\nedges = [[1, 0, 0], [0, 1, 0]]\nemission = \"t\"\n";
+    write(&folder, "s.toml", format!("{SCENE}{lamp}"));
+    write_image(folder.join("glow.pfm"), &[0.25, 0.5]);
+    let before = identity(&folder);
+    for name in ["glow.pfm", "t.pfm"] {
+        write_image(folder.join(name), &[0.25, 0.75]);
+        assert_eq!(changed(&before, &identity(&folder)), [format!("image \"{name}\" as Srgb")]);
+        write_image(folder.join(name), &[0.25, 0.5]);
+    }
+    write(&folder, "s.toml", format!("{SCENE}{}", lamp.replace("\"t\"", "[1, 1, 1]")));
+    assert_eq!(changed(&before, &identity(&folder)), ["shape.lamp.emission"]);
+}

@@ -301,28 +301,46 @@ fn maps_drive_every_parameter() {
     assert_eq!(opacity("d 0.5", Vec2::ZERO), None);
 }
 
-/// Seen to fail with the first pixel for the mean, and with `Ke` left out.
+/// `Ke` times `map_Ke`, 1 without it; black is a constant. Caught: `Ke` left out, `-mm` left out, a black `Ke` that is taken for none, and an
+/// image of black pixels that is a lamp.
 #[test]
-fn lamps_have_the_mean_of_their_image() {
+fn lamps_have_their_image() {
     let folder = folder("materials-lamps");
     write_image(folder.join("two.pfm"), &[0.25, 0.75]);
+    write_image(folder.join("dark.pfm"), &[0.0, 0.0]);
     let textures = Textures::default();
     let materials = MtlMaterials { folder: &folder, textures: &textures };
-    let note = "lamps have one colour: map_Ke is its mean".to_owned();
-    for (lines, radiance, note) in [
-        ("Ke 1 2 3", [1.0, 2.0, 3.0], None),
-        ("", [0.0; 3], None),
-        ("map_Ke two.pfm", [0.5; 3], Some(note.clone())),
-        ("Ke 2 4 6\nmap_Ke two.pfm", [1.0, 2.0, 3.0], Some(note)),
-        (
-            "Ke 2\nmap_Ke no.pfm",
-            [2.0; 3],
-            Some("cannot read `no.pfm`: there is no such file".into()),
-        ),
+    let none = "cannot read `no.pfm`: there is no such file";
+    let times_black = "map_Ke times a black Ke emits nothing";
+    // At the centres of both pixels; `None` for the second if the emission is constant.
+    for (lines, first, second, note) in [
+        ("Ke 1 2 3", [1.0, 2.0, 3.0], None, None),
+        ("", [0.0; 3], None, None),
+        ("map_Ke two.pfm", [0.25; 3], Some([0.75; 3]), None),
+        ("Ke 2 4 8\nmap_Ke two.pfm", [0.5, 1.0, 2.0], Some([1.5, 3.0, 6.0]), None),
+        ("Ke 2\nmap_Ke -mm 1 2 two.pfm", [3.0; 3], Some([5.0; 3]), None),
+        ("Ke 2\nmap_Ke -s 1 1 -o 0.5 0 two.pfm", [1.5; 3], Some([0.5; 3]), None),
+        ("map_Ke dark.pfm", [0.0; 3], None, None),
+        ("map_Ke -mm 1 1 dark.pfm", [1.0; 3], Some([1.0; 3]), None),
+        ("Ke 0\nmap_Ke two.pfm", [0.0; 3], None, Some(times_black)),
+        ("Ke 2\nmap_Ke no.pfm", [2.0; 3], None, Some(none)),
+        ("map_Ke no.pfm", [0.0; 3], None, Some(none)),
     ] {
         let library = parse_mtl("m.mtl", format!("newmtl x\n{lines}").as_bytes()).unwrap();
-        let (found, found_note) = materials.emission(&library.materials[0]);
-        let notes = without_folder(&found_note.into_iter().collect::<Vec<_>>(), &folder);
-        assert_eq!((found.to_array(), notes), (radiance, note.into_iter().collect()), "{lines}");
+        let (found, notes) = materials.emission(&library.materials[0]);
+        let point = BoundedPoint { p: Vec3::ZERO, error: Vec3::ZERO };
+        let at = |u| {
+            let uv = Vec2::new(u, 0.5);
+            let si = SurfaceInteraction::new(point, uv, Vec3::Z, Partials::default());
+            found.evaluate(&si).to_array()
+        };
+        assert_eq!(at(0.25), first, "{lines}");
+        assert_eq!(found.constant().is_none().then(|| at(0.75)), second, "{lines}");
+        let notes = without_folder(&notes, &folder);
+        assert_eq!(
+            notes.iter().map(String::as_str).collect::<Vec<_>>(),
+            Vec::from_iter(note),
+            "{lines}"
+        );
     }
 }

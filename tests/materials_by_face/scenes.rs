@@ -8,11 +8,12 @@ use lobe::bxdf::{Arena, BxdfFlags};
 use lobe::geometry::Ray;
 use lobe::glam::{Vec2, Vec3};
 use lobe::integrator::PathIntegrator;
+use lobe::light::LightHit;
 use lobe::scene::{FilmSettings, View};
 use lobe::scene_file::{LoadedScene, read_scene};
 use lobe::{PerspectiveSettings, RenderOptions, RenderSettings, Scene, render};
 
-use crate::{folder, without_folder, write};
+use crate::{folder, without_folder, write, write_image};
 
 /// Five squares side by side in the plane z = 0, which face -z: square i is from x = i to i + 1.
 fn squares(materials: [&str; 5]) -> String {
@@ -248,6 +249,49 @@ fn faces_with_ke_are_lamps() {
             assert!(is_near, "{z} {square}: {pixel:?}");
         }
     }
+}
+
+/// Faces with `map_Ke` emit Ke times the image, seen by rays and by points that sample them; other faces of the file do not. Caught: texture
+/// coordinates left out of the lamp's mesh, and `Ke` left out.
+#[test]
+fn faces_with_an_image_of_ke_are_lamps() {
+    let folder = folder("scenes-map-ke");
+    let corners = "v 0 0 0\nv 0 1 0\nv 1 1 0\nv 1 0 0\nv 0 0 5\nv 0 1 5\nv 1 1 5\nvt 0 0\nvt 0 1\nvt 1 1\nvt 1 0\n";
+    let faces = "usemtl red\nf 5 6 7\nusemtl lamp\nf 1/1 2/2 3/3 4/4\n";
+    write(&folder, "m.obj", format!("mtllib m.mtl\n{corners}{faces}"));
+    write(&folder, "m.mtl", MTL.replace("Ke 30 20 10", "Ke 30 20 10\nmap_Ke two.pfm"));
+    write_image(folder.join("two.pfm"), &[0.25, 0.5]);
+    let loaded = load(&folder, "[shape.s]\nobj = \"m.obj\"\ntwo_sided = true\n");
+    assert_eq!(loaded.report.notes, Vec::<String>::new());
+    let [image] = &loaded.report.images[..] else { panic!("{:?}", loaded.report.images) };
+    assert!(image.file.ends_with("two.pfm"));
+    let scene = loaded.scene;
+    let [lamp] = scene.lights() else { panic!("{} lights", scene.lights().len()) };
+    for (x, shade) in [(0.25, 0.25), (0.75, 0.5)] {
+        let origin = Vec3::new(x, 0.4, -1.0);
+        let ray = Ray::new(origin, Vec3::Z);
+        let hit = scene.accel().intersect1(&ray);
+        let si = scene.interaction(&ray, &hit);
+        let le = lamp.le(&LightHit::on_surface(origin, &si)).to_array();
+        for (found, ke) in le.into_iter().zip([30.0, 20.0, 10.0]) {
+            assert!((found / (ke * shade) - 1.0).abs() < 1e-5, "{x}: {le:?}");
+        }
+    }
+    for i in 0..100 {
+        let u = Vec2::new((i % 10) as f32 + 0.5, (i / 10) as f32 + 0.5) / 10.0;
+        let sample = lamp.sample_li(Vec3::new(0.5, 0.5, -2.0), u).unwrap();
+        // Straight between the centres of pixels, and again beyond the edges.
+        let x = sample.from.unwrap().x;
+        let from_edge = (x - 0.5).abs().min(0.25) / 0.5;
+        let shade = if x < 0.5 { 0.375 - 0.25 * from_edge } else { 0.375 + 0.25 * from_edge };
+        if (0.25..0.75).contains(&x) {
+            let red = sample.li.to_array()[0];
+            assert!((red / (30.0 * shade) - 1.0).abs() < 1e-4, "{x}: {red}");
+        }
+    }
+    // 0.375 is the mean.
+    let power = lamp.power(&Default::default()).unwrap().to_array()[0];
+    assert!((f64::from(power) / (2.0 * PI * 30.0 * 0.375) - 1.0).abs() < 1e-3, "{power}");
 }
 
 /// Lamps alone, and lamps whose MTL names them last or first. Seen to fail with a shape of no triangles for what does not glow.

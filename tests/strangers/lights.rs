@@ -144,7 +144,7 @@ fn emission_is_checked() {
     for (radiance, good) in
         [([0.0, 1.0, 2.0], true), ([0.0, -1.0, 2.0], false), ([f32::NAN; 3], false)]
     {
-        let emission = Emission { radiance: radiance.into(), two_sided: false };
+        let emission = Emission { radiance: Spectrum::from(radiance), two_sided: false };
         match Scene::builder().lamp("panel", panel(), emission).build() {
             Ok(_) => assert!(good, "{radiance:?}"),
             Err(SceneError::Emission { shape, .. }) => assert!(!good && shape == "panel"),

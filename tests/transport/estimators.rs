@@ -2,6 +2,7 @@
 
 use lobe::glam::{UVec2, Vec3};
 use lobe::integrator::{DirectIntegrator, Integrator, PathIntegrator};
+use lobe::interaction::SurfaceInteraction;
 use lobe::light::{DistantLight, LightStrategy, SkyLight};
 use lobe::render::SamplerSettings;
 use lobe::sampling::SamplerKind;
@@ -114,5 +115,47 @@ fn leaning_normals_have_one_value() {
     let reference = under(LightStrategy::Light, SamplerKind::INDEPENDENT);
     for strategy in [LightStrategy::Mis, LightStrategy::Bsdf] {
         assert_alike(&reference, &under(strategy, SamplerKind::SOBOL), &format!("{strategy:?}"));
+    }
+}
+
+/// Lamps of textures: a glowing ball and a bent panel with dark parts, and a rectangle, beside a constant one, with each strategy.
+/// Caught: the density of all triangles together in the weights, and a sampled texture that takes its shape for the first.
+#[test]
+fn textured_lamps_have_one_value() {
+    let mut panel =
+        TriangleMesh::parallelogram(Vec3::new(1.2, 1.5, -1.0), Vec3::X * 2.0, Vec3::Z * 1.5);
+    let window = TriangleMesh { ..panel.clone() };
+    panel.positions.iter_mut().for_each(|p| *p -= Vec3::new(3.5, -0.3, 0.5));
+    panel.positions[2].y += 0.6;
+    let mut moon = ball(6);
+    moon.positions.iter_mut().for_each(|p| *p = *p * 0.6 + Vec3::new(-1.6, -0.8, -1.2));
+    moon.normals = ball(6).positions;
+    let by_place = |si: &SurfaceInteraction| {
+        let dark = si.place().is_some_and(|place| place.triangle % 3 != 0 || place.shape == 0);
+        Spectrum::new(14.0, 10.0, 6.0) * f32::from(u8::from(!dark))
+    };
+    let by_uv = |si: &SurfaceInteraction| {
+        let stripe = (8.0 * si.uv().x).floor() as u32 % 2;
+        Spectrum::new(6.0, 4.0 * si.uv().y, 2.0) * stripe as f32
+    };
+    let estimate = |strategy, kind| {
+        let sampler = SamplerSettings { kind, spp: 2048, seed: index(kind), replicates: 64 };
+        let integrator = PathIntegrator { max_depth: 3, roulette: false, strategy };
+        let scene = ball_over_floor()
+            .glowing_shape(
+                "moon",
+                moon.clone(),
+                "red",
+                Emission { radiance: by_place, two_sided: false },
+            )
+            .lamp("panel", panel.clone(), Emission { radiance: by_uv, two_sided: true })
+            .lamp("window", window.clone(), Emission { radiance: by_uv, two_sided: false });
+        let settings = RenderSettings::new(sampler, integrator);
+        bands(&picture(scene, &chapter_view(UVec2::splat(24)), &settings))
+    };
+    let reference = estimate(LightStrategy::Bsdf, SamplerKind::INDEPENDENT);
+    for strategy in [LightStrategy::Mis, LightStrategy::Light, LightStrategy::Auto] {
+        let other = estimate(strategy, SamplerKind::SOBOL);
+        assert_alike(&reference, &other, &format!("{strategy:?}"));
     }
 }

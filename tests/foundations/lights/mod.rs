@@ -9,6 +9,7 @@ mod point;
 mod shadow;
 mod spot;
 mod surroundings;
+mod textured;
 mod tree;
 
 use lobe::accel::Accel;
