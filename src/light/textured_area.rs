@@ -27,7 +27,7 @@ const SHARED_POINTS: f64 = 65_536.0;
 /// [`AreaLight`](super::AreaLight).
 ///
 /// The texture is looked up at single points, those that rays hit and those that are sampled. It is not filtered, since neither has a
-/// footprint. Bands below 0 are taken as 0. Values that are not finite make samples that are left out and counted.
+/// footprint. Points that are black give no samples. Bands below 0 are taken as 0. Values that are not finite make samples that are left out and counted.
 ///
 /// # How points are sampled
 /// Nine tenths of the probability select a triangle by its power, area times mean luminance, and one tenth by its area, so that a
@@ -126,15 +126,16 @@ impl TexturedAreaLight {
     /// [`sample_li`](Light::sample_li) where f32 is not precise enough, or if the light is no rectangle.
     fn sample_precisely(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
         let (sample, place) = self.mesh.sample(p, u, Spectrum::BLACK)?;
-        Some(self.lit(sample, place))
+        self.lit(sample, place)
     }
 
-    /// A sample with its radiance. `place` is `None` on the rectangle.
+    /// A sample with its radiance; `None` where that is black, which saves a shadow ray. `place` is `None` on the rectangle.
     #[inline]
-    fn lit(&self, sample: LightSample, place: Option<Place>) -> LightSample {
+    fn lit(&self, sample: LightSample, place: Option<Place>) -> Option<LightSample> {
         // The end of the shadow ray is the point, moved along the normal.
         let place = place.unwrap_or_else(|| self.on_pair(sample.from.unwrap_or_default()));
-        LightSample { li: self.radiance(place, -sample.wi), ..sample }
+        let li = self.radiance(place, -sample.wi);
+        (!li.is_black()).then_some(LightSample { li, ..sample })
     }
 
     /// Triangle and barycentrics of a point on the rectangle.
@@ -158,7 +159,7 @@ impl Light for TexturedAreaLight {
         if let Some(rectangle) = self.mesh.on_rectangle(Spectrum::BLACK) {
             let (incident, imprecise) = rectangle.incident(p.into(), u.to_array());
             if !imprecise {
-                return incident.into_sample().map(|sample| self.lit(sample, None));
+                return incident.into_sample().and_then(|sample| self.lit(sample, None));
             }
         }
         self.sample_precisely(p, u)
@@ -194,10 +195,10 @@ impl Light for TexturedAreaLight {
             imprecise = [false; ROW];
             sample_wide(&rectangle, receivers, samples).for_each(|i| imprecise[i] = true);
         }
-        for i in 0..receivers.len() {
-            let sample = match imprecise[i] {
+        for (i, is_imprecise) in imprecise.into_iter().enumerate().take(receivers.len()) {
+            let sample = match is_imprecise {
                 true => self.sample_precisely(receivers.p(i), receivers.u(i)),
-                false => samples.get(i).map(|sample| self.lit(sample, None)),
+                false => samples.get(i).and_then(|sample| self.lit(sample, None)),
             };
             samples.set(i, sample);
         }

@@ -123,7 +123,7 @@ fn sampler(table: Table) -> Result<SamplerSettings, Fault> {
 fn shape(table: Table, textures: &Textures) -> Result<Shape, Fault> {
     sections::SHAPE.read(table, |kind, table| {
         let two_sided = table.get(&sections::TWO_SIDED)?;
-        let emission = textures.find(&table, &sections::EMISSION)?;
+        let emission = textures.find(table, &sections::EMISSION)?;
         let emission = emission
             .map(|radiance| Emission { radiance, two_sided: two_sided.unwrap_or_default() });
         let transform = transform(table)?;
