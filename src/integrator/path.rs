@@ -37,8 +37,8 @@ pub struct PathIntegrator {
     /// are left out, which darkens scenes with much interreflection. (A faceted glass ball in a white furnace,
     /// which should give 1, gives 0.9976 with 64 and 1.0000 with 8192.)
     pub max_depth: u32,
-    /// Russian roulette: from the fourth reflection on, paths of low throughput are ended at random, and the
-    /// weight of the survivors is increased, so that the estimate stays unbiased.
+    /// Russian roulette: from the third reflection on, paths that carry less than a quarter of what they began with are ended at random, and
+    /// the weight of the survivors is raised to a quarter, so that the estimate stays unbiased.
     #[doc(alias = "russian roulette")]
     pub roulette: bool,
     /// How directions to lights are sampled.

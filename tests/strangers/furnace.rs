@@ -136,7 +136,7 @@ fn standard_error(picture: &Picture) -> f64 {
 /// event of glass that is reported as a reflection has no index. That
 /// is counted, and costs noise.
 /// Caught: flags of samples passed on, with which reflections take part in the index (standard error 80 times as
-/// large); a delta event called diffuse weighed against the light's own samples; the index left out of roulette, or taken once in place of squared.
+/// large); a delta event called diffuse weighed against the light's own samples. (The index in roulette: `transport/roulette.rs`.)
 #[test]
 fn furnaces_are_white_whatever_flags_are_written() {
     for writes in

@@ -6,7 +6,7 @@ use glam::{Vec2, Vec3};
 
 use super::dimension;
 use super::paths::{Path, PathList, PathsAt, PathsWide, Values};
-use super::rules::{PathRules, power_heuristic};
+use super::rules::{PathRules, ROULETTE_WEIGHT, power_heuristic};
 use super::shadow_rays::ShadowRays;
 use crate::bxdf::{Arena, BsdfBlock, BsdfSamples};
 use crate::geometry::float::ONE_MINUS_EPSILON;
@@ -304,7 +304,8 @@ impl BlockKernel for Advance<'_> {
             if let Some(u) = roulette {
                 // Russian roulette: a path that goes on is divided by the probability of that (PBRT 3rd edition,
                 // section 14.5.4).
-                let survival = (beta * eta_scale).max_component().min(one);
+                let carried = (beta * eta_scale).max_component();
+                let survival = (carried / F::splat(ROULETTE_WEIGHT)).min(one);
                 goes_on = goes_on & u.load::<F>(at).lt(survival);
                 beta = beta / survival;
             }
