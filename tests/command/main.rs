@@ -199,7 +199,7 @@ fn help_lists_what_scene_files_can_hold() {
     folder.fails(
         "help foo",
         "there is no help on `foo`; expected `render`, `info`, `merge`, `compare`, `chart`, `check`, `help`, `cameras`, `filters`, \
-         `samplers`, `integrators`, `textures`, `materials`, `lights`, `shapes` or `scene-format`",
+         `samplers`, `integrators`, `textures`, `materials`, `lights`, `shapes`, `instances` or `scene-format`",
     );
     for section in lobe::scene_file::SECTIONS {
         let table = folder.prints(&format!("help {}", section.plural()));

@@ -84,8 +84,8 @@ bounds          [-2, 0, 0] to [2, 4, 0]
     folder.write("lamp.mtl", "newmtl red\nKe 1 2 3\nmap_Ke wood.png\n");
     folder.write("lamp.obj", &MODEL.replace("model.mtl", "lamp.mtl"));
     let summary = folder.prints("info lamp.obj");
-    assert!(summary.contains("\nmaterial     model/red: 2 triangles, emitting\n"), "{summary}");
-    let texture = "\ntexture      wood.png: 20x10 pixels, srgb, 0.00 MiB\n";
+    assert!(summary.contains("\nmaterial        model/red: 2 triangles, emitting\n"), "{summary}");
+    let texture = "\ntexture         wood.png: 20x10 pixels, srgb, 0.00 MiB\n";
     assert!(summary.contains(texture), "{summary}");
 }
 
