@@ -742,7 +742,7 @@ fn bad_overrides() {
         ),
         (
             "fov=40",
-            "--set fov=40: unknown key `fov` in the scene; expected `camera`, `film`, `sampler`, `integrator`, `texture`, `material`, `light` or `shape`",
+            "--set fov=40: unknown key `fov` in the scene; expected `camera`, `film`, `sampler`, `integrator`, `texture`, `material`, `light`, `shape` or `instance`",
         ),
         (
             "shape.zz.scale=2",
