@@ -50,7 +50,7 @@ pub enum SceneError {
         /// What is wrong.
         reason: String,
     },
-    /// A mesh failed [`TriangleMesh::check`].
+    /// A mesh failed [`TriangleMesh::check`](crate::TriangleMesh::check).
     #[error("shape {}: {}", quoted(.0), .1)]
     Mesh(String, MeshError),
 }
