@@ -107,8 +107,14 @@ fn count(hits: impl Iterator<Item = Hit>) -> (usize, f64) {
 
 fn trace(accel: &Accel, rays: &[Ray], mode: Mode) -> (usize, f64) {
     match mode {
-        Mode::Closest => count(rays.iter().map(|ray| accel.intersect1(ray))),
-        Mode::Any => (rays.iter().filter(|ray| accel.occluded1(ray)).count(), 0.0),
+        Mode::Closest => {
+            let mut tracer = accel.tracer();
+            count(rays.iter().map(|ray| tracer.intersect1(ray)))
+        }
+        Mode::Any => {
+            let mut tracer = accel.tracer();
+            (rays.iter().filter(|ray| tracer.occluded1(ray)).count(), 0.0)
+        }
         Mode::Batch => {
             let mut hits = [Hit::MISS; BATCH];
             rays.chunks(BATCH).fold((0, 0.0), |(n, sum), rays| {

@@ -1,7 +1,7 @@
 //! Rays against all triangles of a scene: [`Accel`].
 //!
 //! Three rooms, each of which knows only those before it, but `trace` not `build`:
-//! - `tree`: the data, a bounding volume hierarchy with sixteen children per node;
+//! - `tree`: the data, a bounding volume hierarchy with eight children per node;
 //! - `build`: from meshes to that tree, with obvhs;
 //! - `trace`: rays through that tree, one at a time or in beams.
 
@@ -182,23 +182,44 @@ impl Accel {
         }
     }
 
-    /// The closest hit of one ray. Of triangles at the same distance, the first counts.
+    /// The closest hit of one ray. Of triangles at the same distance, the first counts. Many single rays are faster by a
+    /// [`Tracer`].
     pub fn intersect1(&self, ray: &Ray) -> Hit {
-        let found = self.run(&self.bvh, ClosestHit(World, Start::ROOT), ray);
-        let mut hit = Hit::from_found(&self.bvh, found);
-        if let Some(forest) = &self.forest {
-            let answers = std::slice::from_mut(&mut hit);
-            self.run(&**forest, InForest { answers }, std::slice::from_ref(ray));
-        }
-        hit
+        Stack::with(|stack| self.closest_hit(ray, stack))
     }
 
     /// Whether one ray hits anything.
     pub fn occluded1(&self, ray: &Ray) -> bool {
-        let mut occluded = self.run(&self.bvh, AnyHit(World, Start::ROOT), ray);
+        Stack::with(|stack| self.any_hit(ray, stack))
+    }
+
+    /// Traces single rays without looking up memory of the thread for each.
+    pub fn tracer(&self) -> Tracer<'_> {
+        Tracer { accel: self, stack: Stack::boxed() }
+    }
+
+    #[inline(always)]
+    fn closest_hit(&self, ray: &Ray, stack: &mut Stack) -> Hit {
+        let mut hit = Hit::MISS;
+        let kernel = ClosestHit { space: World, start: Start::ROOT, hit: &mut hit };
+        self.instruction_set.run(&self.bvh, stack, ray, kernel);
+        self.bvh.tell_shape(&mut hit);
+        if let Some(forest) = &self.forest {
+            let answers = std::slice::from_mut(&mut hit);
+            let rays = std::slice::from_ref(ray);
+            self.instruction_set.run(&**forest, stack, rays, InForest { answers });
+        }
+        hit
+    }
+
+    #[inline(always)]
+    fn any_hit(&self, ray: &Ray, stack: &mut Stack) -> bool {
+        let kernel = AnyHit(World, Start::ROOT);
+        let mut occluded = self.instruction_set.run(&self.bvh, stack, ray, kernel);
         if let Some(forest) = &self.forest {
             let answers = std::slice::from_mut(&mut occluded);
-            self.run(&**forest, InForest { answers }, std::slice::from_ref(ray));
+            let rays = std::slice::from_ref(ray);
+            self.instruction_set.run(&**forest, stack, rays, InForest { answers });
         }
         occluded
     }
@@ -211,5 +232,25 @@ impl Accel {
         input: &K::Input,
     ) -> K::Output {
         Stack::with(|stack| self.instruction_set.run(data, stack, input, kernel))
+    }
+}
+
+/// Traces single rays, as [`Accel::intersect1`] and [`Accel::occluded1`] do, with scratch memory of its own. One for each thread.
+pub struct Tracer<'a> {
+    accel: &'a Accel,
+    stack: Box<Stack>,
+}
+
+impl Tracer<'_> {
+    /// The closest hit of one ray. Of triangles at the same distance, the first counts.
+    #[inline]
+    pub fn intersect1(&mut self, ray: &Ray) -> Hit {
+        self.accel.closest_hit(ray, &mut self.stack)
+    }
+
+    /// Whether one ray hits anything.
+    #[inline]
+    pub fn occluded1(&mut self, ray: &Ray) -> bool {
+        self.accel.any_hit(ray, &mut self.stack)
     }
 }

@@ -42,7 +42,7 @@ pub(crate) use placement::Placement;
 pub(crate) use triangle::triangle_normal_wide;
 pub use triangle::{TriangleHit, triangle_normal};
 pub use watertight::ShearedRay;
-pub(crate) use watertight::{Crossing, Edges, longest_axis};
+pub(crate) use watertight::{Crossing, Edges, Reach, T_TOLERANCE, longest_axis};
 
 use crate::params::Kind;
 

@@ -4,7 +4,7 @@ use std::hint::select_unpredictable;
 
 use glam::{DVec3, Vec3, Vec3A};
 
-use super::watertight::{Crossing, Edges, ShearedRay, longest_axis};
+use super::watertight::{Crossing, Edges, Reach, ShearedRay, longest_axis};
 use crate::geometry::{Ray, Xyz};
 use crate::simd::Float;
 
@@ -85,7 +85,7 @@ impl ShearedRay {
         t_min: f32,
         t_max: f32,
     ) -> Option<TriangleHit> {
-        let corners = self.corners(coordinates);
+        let corners = self.corners(&coordinates);
         let [x, y, z] = corners;
         let mut edges = Edges::new(x, y);
         if edges.any_zero() {
@@ -94,9 +94,15 @@ impl ShearedRay {
         if !edges.inside() {
             return None;
         }
-        let crossing = Crossing::new(edges, z, self);
-        let is_hit = crossing.is_within(t_min, t_max) && crossing.is_in_front(corners);
-        is_hit.then(|| {
+        let reach = Reach::new(corners);
+        let mut crossing = Crossing::new(edges, z, self);
+        if !crossing.is_in_front(&reach, true) {
+            return None;
+        }
+        if !crossing.is_sure(&reach) {
+            crossing = crossing.confined(&reach, self, coordinates);
+        }
+        crossing.is_within(t_min, t_max).then(|| {
             let b = Vec3A::from(edges.0) / crossing.determinant;
             TriangleHit { t: crossing.t, b: b.to_array() }
         })

@@ -9,6 +9,9 @@
 use crate::geometry::float::gamma;
 use crate::simd::{Float, LaneMask, splat3};
 
+/// The relative error that t may have, of what is no needle seen from the ray: see [`Crossing::is_sure`].
+pub(crate) const T_TOLERANCE: f32 = 1.0 / (1 << 11) as f32;
+
 /// A ray prepared for the triangle test: the permutation of axes and the shear that turn its
 /// direction into +z.
 #[derive(Clone, Copy, Debug)]
@@ -86,12 +89,34 @@ impl<F: Float> Edges<F> {
     }
 }
 
+/// How far the corners of a triangle reach in the sheared space.
+#[derive(Clone, Copy)]
+pub(crate) struct Reach<F> {
+    /// The largest absolute x and y.
+    x: F,
+    y: F,
+    /// The smallest and the largest z, and the largest absolute one.
+    low: F,
+    high: F,
+    z: F,
+}
+
+impl<F: Float> Reach<F> {
+    #[inline(always)]
+    pub fn new([x, y, z]: [[F; 3]; 3]) -> Self {
+        let (low, high) = (z[0].min(z[1].min(z[2])), z[0].max(z[1].max(z[2])));
+        Self { x: max_abs(x), y: max_abs(y), low, high, z: high.max(-low) }
+    }
+}
+
 /// Where a ray crosses the plane of a triangle.
 #[derive(Clone, Copy)]
 pub(crate) struct Crossing<F> {
-    edges: [F; 3],
-    /// The sum of the edge functions: divided by it they are the barycentric coordinates.
+    /// The edge functions: divided by their sum they are the barycentric coordinates.
+    pub edges: [F; 3],
     pub determinant: F,
+    /// The sum of the corners' z, each times its edge function.
+    weighted: F,
     /// z, and the distance along the ray, in lengths of its direction.
     depth: F,
     pub t: F,
@@ -103,9 +128,10 @@ impl<F: Float> Crossing<F> {
     pub fn new(Edges(edges): Edges<F>, z: [F; 3], ray: &ShearedRay<F>) -> Self {
         let [a, b, c] = edges;
         let determinant = a + b + c;
+        let weighted = a * z[0] + b * z[1] + c * z[2];
         // Depth before t: products with the scaled z could exceed the range of f32.
-        let depth = (a * z[0] + b * z[1] + c * z[2]) / determinant;
-        Self { edges, determinant, depth, t: depth * ray.shear[2] }
+        let depth = weighted / determinant;
+        Self { edges, determinant, weighted, depth, t: depth * ray.shear[2] }
     }
 
     /// Whether t is in a range.
@@ -114,20 +140,34 @@ impl<F: Float> Crossing<F> {
         t_min.le(self.t) & self.t.le(t_max)
     }
 
-    /// Whether the crossing is certainly in front of the origin: t is beyond its error bound, or the triangle is beyond
-    /// [`FAR`].
+    /// Whether t is certainly off by less than [`T_TOLERANCE`] of itself. It may not be where a triangle is a needle as the ray
+    /// sees it.
+    ///
+    /// Depth is a mean of the corners' z by weights that are computed, so each weight's error moves it within the range of z. By
+    /// PBRT 3rd edition, section 3.9.6, an edge function is off by 2 γ₅ (y (x + z) + x (y + z)) at most, with the
+    /// largest absolute coordinates; three of them, over the determinant, times the range of z, over the depth.
     #[inline(always)]
-    pub fn is_in_front(&self, [x, y, z]: [[F; 3]; 3]) -> F::Mask {
+    pub fn is_sure(&self, reach: &Reach<F>) -> F::Mask {
+        const FACTOR: f32 = 6.0 * gamma(5) / T_TOLERANCE;
+        let Reach { x, y, z, .. } = *reach;
+        let range = F::splat(FACTOR) * (reach.high - reach.low);
+        // Not `le`: infinite products are not sure.
+        ((x * (y + z) + y * (x + z)) * range).lt(self.weighted.abs())
+    }
+
+    /// Whether the crossing is certainly in front of the origin: t is beyond its error bound, or the triangle is beyond
+    /// [`FAR`]. Unspecified but for lanes `among`.
+    #[inline(always)]
+    pub fn is_in_front(&self, reach: &Reach<F>, among: F::Mask) -> F::Mask {
         let is_positive = self.t.gt(F::splat(0.0));
-        let max_z = max_abs(z);
+        let Reach { x: max_x, y: max_y, low, high, z: max_z } = *reach;
         let delta_z = F::splat(gamma(3)) * max_z;
-        let (low, high) = (z[0].min(z[1].min(z[2])), z[0].max(z[1].max(z[2])));
         let is_far = (F::splat(FAR) * (high - low) + delta_z).lt(low.max(-high));
-        if is_far.all() {
+        if (is_far | !among).all() {
             return is_positive;
         }
         // PBRT 3rd edition, section 3.9.6, which scales z to be t.
-        let (max_x, max_y, max_e) = (max_abs(x), max_abs(y), max_abs(self.edges));
+        let max_e = max_abs(self.edges);
         let delta_x = F::splat(gamma(5)) * (max_x + max_z);
         let delta_y = F::splat(gamma(5)) * (max_y + max_z);
         let delta_e = F::splat(2.0)
@@ -135,6 +175,30 @@ impl<F: Float> Crossing<F> {
         let sum = F::splat(gamma(3)) * max_e * max_z + delta_e * max_z + delta_z * max_e;
         let bound = F::splat(3.0) * sum / self.determinant.abs();
         is_positive & (is_far | self.depth.abs().gt(bound))
+    }
+}
+
+impl Crossing<f32> {
+    /// The same with t moved to where the ray is inside the box of the triangle, in which it is computed that the ray meets it.
+    /// `coordinates` returns one coordinate of all corners, given the axis.
+    #[cold]
+    pub fn confined(
+        self,
+        reach: &Reach<f32>,
+        ray: &ShearedRay,
+        coordinates: impl Fn(usize) -> [f32; 3],
+    ) -> Self {
+        if self.depth.is_nan() {
+            return self;
+        }
+        let (mut enter, mut leave) = (reach.low, reach.high);
+        for i in (0..2).filter(|&i| ray.shear[i] != 0.0) {
+            let depths = coordinates(ray.axes[i]).map(|x| (x - ray.o[i]) / -ray.shear[i]);
+            enter = enter.max(depths.into_iter().fold(reach.high, f32::min));
+            leave = leave.min(depths.into_iter().fold(reach.low, f32::max));
+        }
+        let depth = self.depth.min(leave).max(enter);
+        Self { depth, t: depth * ray.shear[2], ..self }
     }
 }
 

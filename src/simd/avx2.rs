@@ -4,7 +4,7 @@ use std::arch::x86_64::*;
 
 use super::f32x8::{F32x8, Indices8};
 use super::float::Float;
-use super::lanes::{Kernel, LANES, Lanes, Mask, Vector};
+use super::lanes::{Kernel, Lanes, Vector};
 use super::twice::Twice;
 
 /// Sixteen f32 in two registers. Only [`super::InstructionSet::run`] names this type, if [`Avx2::is_available`]: each
@@ -15,6 +15,7 @@ impl Avx2 {
     /// Whether the processor has all that [`Avx2::call`] is compiled for.
     pub fn is_available() -> bool {
         is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("fma")
             && is_x86_feature_detected!("bmi1")
             && is_x86_feature_detected!("bmi2")
             && is_x86_feature_detected!("lzcnt")
@@ -40,7 +41,7 @@ impl Lanes for Avx2 {
 
     type Block = F32x8;
 
-    const SKIPS_EMPTY: bool = true;
+    type Boxes = F32x8;
 
     #[inline(always)]
     fn call<K: Kernel>(
@@ -50,7 +51,7 @@ impl Lanes for Avx2 {
         kernel: K,
     ) -> K::Output {
         #[inline(never)]
-        #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+        #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
         fn with_features<K: Kernel>(
             data: &K::Data,
             scratch: &mut K::Scratch,
@@ -73,50 +74,6 @@ impl Lanes for Avx2 {
             _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)))
         }
     }
-    #[inline(always)]
-    fn compress(from: [Self; 2], mask: Mask, flip: u32, to: [&mut [f32; LANES]; 2]) {
-        let [low, high] = [mask as u8, (mask >> 8) as u8];
-        // Bit 3 of `flip` swaps the halves.
-        let is_swapped = flip & 8 != 0;
-        let [Twice(a0, a1), Twice(b0, b1)] = from;
-        let (a0, b0, a1, b1) = if is_swapped { (a1, b1, a0, b0) } else { (a0, b0, a1, b1) };
-        // SAFETY: as above. There is room for eight numbers at 0 and behind the lanes of half a mask, at most eight.
-        unsafe {
-            let flip = _mm256_set1_epi32(flip as i32 & 7);
-            let [to_a, to_b] = [to[0].as_mut_ptr(), to[1].as_mut_ptr()];
-            let lanes = _mm256_xor_si256(lanes_of(low), flip);
-            _mm256_storeu_ps(to_a, _mm256_permutevar8x32_ps(a0.0, lanes));
-            _mm256_storeu_ps(to_b, _mm256_permutevar8x32_ps(b0.0, lanes));
-            let (lanes, len) = (_mm256_xor_si256(lanes_of(high), flip), low.count_ones() as usize);
-            _mm256_storeu_ps(to_a.add(len), _mm256_permutevar8x32_ps(a1.0, lanes));
-            _mm256_storeu_ps(to_b.add(len), _mm256_permutevar8x32_ps(b1.0, lanes));
-        }
-    }
-}
-
-/// The lanes of each mask, lowest first, then zeros.
-static LANES_OF: [[u8; 8]; 256] = {
-    let mut lanes = [[0; 8]; 256];
-    let mut mask = 0;
-    while mask < 256 {
-        let (mut bit, mut len) = (0, 0);
-        while bit < 8 {
-            if mask >> bit & 1 == 1 {
-                lanes[mask][len] = bit as u8;
-                len += 1;
-            }
-            bit += 1;
-        }
-        mask += 1;
-    }
-    lanes
-};
-
-/// [`LANES_OF`] a mask as a vector.
-#[inline(always)]
-fn lanes_of(mask: u8) -> __m256i {
-    // SAFETY: as above; each entry has eight bytes.
-    unsafe { _mm256_cvtepu8_epi32(_mm_loadl_epi64(LANES_OF[usize::from(mask)].as_ptr().cast())) }
 }
 
 /// Picks eight lanes of sixteen by the lowest four bits of each index.

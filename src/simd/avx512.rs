@@ -6,8 +6,9 @@ use std::ops::{Add, BitOr, BitXor, Div, Mul, Neg, Sub};
 use glam::Vec2;
 
 use super::avx2::Avx2;
+use super::f32x8::F32x8;
 use super::float::{Bits, Block, Float, LaneMask};
-use super::lanes::{Kernel, LANES, LaneIndices, Lanes, Mask, Vector};
+use super::lanes::{Kernel, LANES, LaneIndices, Lanes, Vector};
 
 /// Sixteen f32 in one register. Only [`super::InstructionSet::run`] names this type, if [`Avx512::is_available`]: each
 /// `unsafe` below executes an instruction that such a processor has.
@@ -63,7 +64,7 @@ impl Lanes for Avx512 {
 
     type Block = Self;
 
-    const SKIPS_EMPTY: bool = false;
+    type Boxes = F32x8;
 
     #[inline(always)]
     fn call<K: Kernel>(
@@ -73,7 +74,9 @@ impl Lanes for Avx512 {
         kernel: K,
     ) -> K::Output {
         #[inline(never)]
-        #[target_feature(enable = "avx512f,avx512vl,avx512bw,avx512dq,avx2,bmi1,bmi2,lzcnt,popcnt")]
+        #[target_feature(
+            enable = "avx512f,avx512vl,avx512bw,avx512dq,avx2,fma,bmi1,bmi2,lzcnt,popcnt"
+        )]
         fn with_features<K: Kernel>(
             data: &K::Data,
             scratch: &mut K::Scratch,
@@ -110,28 +113,6 @@ impl Lanes for Avx512 {
             [extremes[first], extremes[first + 4], extremes[first + 8], extremes[first + 12]]
         };
         [of(0), of(2)]
-    }
-    #[inline(always)]
-    fn flip(self, flip: u32) -> Self {
-        // SAFETY: as above.
-        unsafe {
-            let lanes = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
-            let flipped = _mm512_xor_si512(lanes, _mm512_set1_epi32(flip as i32));
-            Self(_mm512_permutexvar_ps(flipped, self.0))
-        }
-    }
-    #[inline(always)]
-    fn flip_mask(mask: __mmask16, _flip: u32) -> Mask {
-        mask.into()
-    }
-    #[inline(always)]
-    fn compress([a, b]: [Self; 2], mask: Mask, _flip: u32, to: [&mut [f32; LANES]; 2]) {
-        let mask = mask as __mmask16;
-        // SAFETY: as above; the arrays have room for all lanes.
-        unsafe {
-            _mm512_storeu_ps(to[0].as_mut_ptr(), _mm512_maskz_compress_ps(mask, a.0));
-            _mm512_storeu_ps(to[1].as_mut_ptr(), _mm512_maskz_compress_ps(mask, b.0));
-        }
     }
 }
 

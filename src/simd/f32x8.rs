@@ -5,12 +5,13 @@ use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 use glam::Vec2;
 
+use super::eight::{ARITY, Eight};
 use super::float::{Bits, Block, Float, LaneMask};
-use super::lanes::{LaneIndices, Vector};
+use super::lanes::{LaneIndices, Mask, Vector};
 use super::transpose::{pair, transpose4, transpose8};
 use super::twice::Twice;
 
-/// Eight f32 in one register. Exists only while code runs under `Avx2::call`: each `unsafe` below executes an
+/// Eight f32 in one register. Exists only while code runs under `Avx2::call` or `Avx512::call`: each `unsafe` below executes an
 /// instruction that such a processor has.
 #[derive(Clone, Copy)]
 pub struct F32x8(pub(super) __m256);
@@ -32,6 +33,77 @@ impl Vector for F32x8 {
         unsafe { Self(_mm256_permutevar8x32_ps(self.0, indices.0)) }
     }
 }
+
+impl Eight for F32x8 {
+    #[inline(always)]
+    fn mul_add(self, factor: Self, summand: Self) -> Self {
+        // SAFETY: as above.
+        unsafe { Self(_mm256_fmadd_ps(self.0, factor.0, summand.0)) }
+    }
+    #[inline(always)]
+    fn compress(self, mask: Mask) -> Self {
+        let lanes = &LANES_OF[mask as usize % LANES_OF.len()];
+        // SAFETY: as above; each entry has eight bytes.
+        unsafe {
+            let lanes = _mm256_cvtepu8_epi32(_mm_loadl_epi64(lanes.as_ptr().cast()));
+            Self(_mm256_permutevar8x32_ps(self.0, lanes))
+        }
+    }
+    #[inline(always)]
+    fn largest_first(mask: Mask8, ids: Self, keys: Self) -> ([Self; 2], usize) {
+        // SAFETY: as above.
+        unsafe {
+            // The number of its lane in the lowest bits of each key. No number but -∞ becomes NaN by that.
+            let lanes = _mm256_castsi256_ps(_mm256_set_epi32(7, 6, 5, 4, 3, 2, 1, 0));
+            let bits = _mm256_castsi256_ps(_mm256_set1_epi32(ARITY as i32 - 1));
+            let finite = _mm256_min_ps(keys.0, _mm256_set1_ps(f32::MAX));
+            let tagged = _mm256_or_ps(_mm256_andnot_ps(bits, finite), lanes);
+            let x = _mm256_blendv_ps(_mm256_set1_ps(f32::MAX), tagged, mask.0);
+            let x = _mm_min_ps(_mm256_castps256_ps128(x), _mm256_extractf128_ps::<1>(x));
+            let x = _mm_min_ps(x, _mm_permute_ps::<0b01_00_11_10>(x));
+            let x = _mm_min_ps(x, _mm_permute_ps::<0b10_11_00_01>(x));
+            let last = _mm_cvtsi128_si32(_mm_castps_si128(x)) as usize % ARITY;
+            let x = _mm256_blendv_ps(_mm256_set1_ps(f32::MIN), tagged, mask.0);
+            // A bitonic network: in each step lanes that are paired exchange their keys, the larger one going down.
+            let x = exchange::<0b1010_1010>(x, _mm256_permute_ps::<0b10_11_00_01>(x));
+            let x = exchange::<0b1100_1100>(x, _mm256_permute_ps::<0b00_01_10_11>(x));
+            let x = exchange::<0b1010_1010>(x, _mm256_permute_ps::<0b10_11_00_01>(x));
+            let reversed = _mm256_permute_ps::<0b00_01_10_11>(x);
+            let x = exchange::<0b1111_0000>(x, _mm256_permute2f128_ps::<1>(reversed, reversed));
+            let x = exchange::<0b1100_1100>(x, _mm256_permute_ps::<0b01_00_11_10>(x));
+            let x = exchange::<0b1010_1010>(x, _mm256_permute_ps::<0b10_11_00_01>(x));
+            // Of an index, the lowest three bits count.
+            let order = _mm256_castps_si256(x);
+            let ids = Self(_mm256_permutevar8x32_ps(ids.0, order));
+            ([ids, Self(_mm256_permutevar8x32_ps(keys.0, order))], last)
+        }
+    }
+}
+
+/// The smaller of two numbers in the lanes of `UPPER`, the larger in others.
+#[inline(always)]
+fn exchange<const UPPER: i32>(x: __m256, other: __m256) -> __m256 {
+    // SAFETY: as above.
+    unsafe { _mm256_blend_ps::<UPPER>(_mm256_max_ps(x, other), _mm256_min_ps(x, other)) }
+}
+
+/// The lanes of each mask, lowest first, then zeros.
+static LANES_OF: [[u8; 8]; 256] = {
+    let mut lanes = [[0; 8]; 256];
+    let mut mask = 0;
+    while mask < 256 {
+        let (mut bit, mut len) = (0, 0);
+        while bit < 8 {
+            if mask >> bit & 1 == 1 {
+                lanes[mask][len] = bit as u8;
+                len += 1;
+            }
+            bit += 1;
+        }
+        mask += 1;
+    }
+    lanes
+};
 
 /// Which lanes of an [`F32x8`] satisfy a condition: all bits set, or none.
 #[derive(Clone, Copy)]

@@ -1,9 +1,9 @@
 //! [`Vector`] and [`Lanes`]: what traversal asks of vectors of f32. [`Kernel`]: code that is generic over them.
 
-use super::flips::flipped;
-use super::float::{Block, Float, LaneMask};
+use super::eight::Eight;
+use super::float::{Block, Float};
 
-/// Number of lanes of a [`Lanes`]: children per node, most triangles per leaf, rays per packet.
+/// Number of lanes of a [`Lanes`]: most triangles per leaf, rays per packet.
 pub const LANES: usize = 16;
 
 /// One bit per lane, lane 0 lowest.
@@ -54,7 +54,7 @@ pub trait Vector: Block {
     fn permute(self, indices: Self::Indices) -> Self;
 }
 
-/// A vector of sixteen f32: what tests against boxes and packets of rays need.
+/// A vector of sixteen f32: what tests of large leaves and of packets of rays need.
 pub trait Lanes: Vector {
     /// The vector for leaves whose vertices and triangles all fit into its lanes; half as wide where testing two
     /// registers takes twice as long as testing one.
@@ -63,8 +63,8 @@ pub trait Lanes: Vector {
     /// The vector for loops over blocks of numbers: the widest that is one register.
     type Block: Block;
 
-    /// Whether a branch that skips `compress` for an empty mask is faster than calling it.
-    const SKIPS_EMPTY: bool;
+    /// The vector for the boxes of a node.
+    type Boxes: Eight;
 
     /// Runs a kernel in a function of its own that is compiled for this vector's instructions.
     fn call<K: Kernel>(
@@ -94,35 +94,6 @@ pub trait Lanes: Vector {
             [a.reduce_min(), b.reduce_min(), c.reduce_min(), d.reduce_min()],
             [a.reduce_max(), b.reduce_max(), c.reduce_max(), d.reduce_max()],
         ]
-    }
-
-    // Children are visited in the order of lanes `i ^ flip`, where `flip` depends on the ray's direction. Where
-    // permuting vectors is cheap, `flip` permutes them before they are compared. Elsewhere it is a no-op, and
-    // `flip_mask` permutes the result of the comparison instead.
-
-    /// Lane `i` of the result is lane `i ^ flip` of `self`; or `self`, where [`Lanes::flip_mask`] does the work.
-    #[inline(always)]
-    fn flip(self, _flip: u32) -> Self {
-        self
-    }
-    /// The bits of the mask that comparing [flipped](Lanes::flip) vectors gave; flips them if those were left as they are.
-    #[inline(always)]
-    fn flip_mask(mask: Self::Mask, flip: u32) -> Mask {
-        if mask.any() { flipped(mask.bits(), flip) } else { 0 }
-    }
-    /// Writes the lanes of `mask`, lowest first, next to each other, of two vectors. All are flipped. Entries past
-    /// the number of lanes in `mask` are unspecified.
-    #[inline(always)]
-    fn compress([a, b]: [Self; 2], mut mask: Mask, flip: u32, to: [&mut [f32; LANES]; 2]) {
-        let ([a, b], [to_a, to_b]) = ([a.to_array(), b.to_array()], to);
-        for (to_a, to_b) in to_a.iter_mut().zip(to_b) {
-            if mask == 0 {
-                return;
-            }
-            let lane = (mask.trailing_zeros() ^ flip) as usize % LANES;
-            (*to_a, *to_b) = (a[lane], b[lane]);
-            mask &= mask - 1;
-        }
     }
 }
 

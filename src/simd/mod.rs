@@ -2,7 +2,7 @@
 //!
 //! - [`Float`]: what formulas are generic over. A formula stands once for f32, f64 and vectors.
 //! - [`Block`]: what loops over blocks of numbers need besides; [`BlockKernel`] is such a loop.
-//! - [`Lanes`] and [`Vector`]: what traversal needs besides; [`Kernel`] is code that is generic over them.
+//! - [`Lanes`], [`Vector`] and [`Eight`]: what traversal needs besides; [`Kernel`] is code that is generic over them.
 //! - [`InstructionSet`], which picks an implementation at run time.
 //!
 //! The vector types stay private to this room: only [`InstructionSet::run`] names them, after it has asked the processor,
@@ -11,8 +11,8 @@
 // Intrinsics, loads and stores of whole vectors, and calls to functions with `#[target_feature]`.
 #![allow(unsafe_code)]
 
+mod eight;
 mod f32x4;
-mod flips;
 mod float;
 mod instruction_set;
 mod lanes;
@@ -32,6 +32,7 @@ mod f32x8;
 #[cfg(target_arch = "x86_64")]
 mod transpose;
 
+pub use eight::{ARITY, Eight};
 pub use float::{Bits, Block, Float, LaneMask, MAX_LANES, eighth_turn, four};
 pub use instruction_set::{BlockKernel, InstructionSet, InstructionSetError};
 pub use lanes::{Kernel, LANES, LaneIndices, Lanes, Mask, Vector, splat3};

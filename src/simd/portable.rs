@@ -30,7 +30,7 @@ impl Lanes for Portable {
 
     type Block = Vec4;
 
-    const SKIPS_EMPTY: bool = true;
+    type Boxes = Twice<Vec4>;
 
     #[inline(always)]
     fn call<K: Kernel>(

@@ -1,11 +1,11 @@
-//! [`Collapse`]: which nodes of a binary tree become nodes and leaves of the sixteen-wide tree.
+//! [`Collapse`]: which nodes of a binary tree become nodes and leaves of the eight-wide tree.
 
 use arrayvec::ArrayVec;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::node::Bvh2Node;
 
 use crate::accel::tree::Aabb;
-use crate::simd::LANES;
+use crate::simd::{ARITY, LANES};
 
 /// Costs of visiting a node and a leaf in the surface area heuristic: about the same, as measured.
 const NODE_COST: f32 = 1.0;
@@ -40,7 +40,7 @@ pub struct Choices<'a> {
 struct NodeInfo {
     /// Index of its choice for k = 1, after which come those for larger k.
     first: u32,
-    /// Largest k: the number of primitives, up to [`LANES`]; if one leaf has room for all, no more than one child for
+    /// Largest k: the number of primitives, up to [`ARITY`]; if one leaf has room for all, no more than one child for
     /// each [`MIN_PER_CHILD`] items.
     max_k: u8,
     /// Number of items below it, up to [`TOO_MANY`].
@@ -83,7 +83,7 @@ impl Collapse {
             };
             let items = (left.items + right.items).min(TOO_MANY as u8);
             let limit = if usize::from(items) > max_in_leaf {
-                LANES
+                ARITY
             } else {
                 usize::from(items.div_ceil(MIN_PER_CHILD))
             };
@@ -98,9 +98,9 @@ impl Collapse {
             // Exactly k children, shared out to both halves in the cheapest way.
             let costs_of =
                 |half: NodeInfo| &costs[half.first as usize..][..usize::from(half.max_k)];
-            let (mut best, mut lefts) = ([f32::INFINITY; LANES + 1], [0; LANES + 1]);
+            let (mut best, mut lefts) = ([f32::INFINITY; ARITY + 1], [0; ARITY + 1]);
             let right_costs = costs_of(right);
-            for (l, left_cost) in (1..LANES).zip(costs_of(left)) {
+            for (l, left_cost) in (1..ARITY).zip(costs_of(left)) {
                 let ks = best[l + 1..].iter_mut().zip(&mut lefts[l + 1..]);
                 for ((best, left), right_cost) in ks.zip(right_costs) {
                     let cost = left_cost + right_cost;
@@ -138,23 +138,23 @@ impl Choices<'_> {
     }
 
     /// The children that stand for the whole tree in the node above it, where each child costs `child_cost`.
-    pub fn roots(&self, child_cost: f32) -> ArrayVec<u32, LANES> {
+    pub fn roots(&self, child_cost: f32) -> ArrayVec<u32, ARITY> {
         let costs = (1..).zip(self.root_costs).map(|(k, cost)| (k, cost + child_cost * k as f32));
         let cheapest = costs.min_by(|(_, a), (_, b)| a.total_cmp(b));
         self.expand([(0, cheapest.map_or(1, |(k, _)| k))])
     }
 
     /// The children of a node of the binary tree that becomes a node of the wide one.
-    pub fn children(&self, index: u32) -> ArrayVec<u32, LANES> {
+    pub fn children(&self, index: u32) -> ArrayVec<u32, ARITY> {
         // A node was cheaper than a leaf, so some k of at least 2 is the cheapest.
-        let k = self.fewest(index, LANES).max(2);
+        let k = self.fewest(index, ARITY).max(2);
         self.expand(self.split(index, k))
     }
 
     /// The children that stand for some subtrees, at most k for each.
-    fn expand<const N: usize>(&self, subtrees: [(u32, usize); N]) -> ArrayVec<u32, LANES> {
+    fn expand<const N: usize>(&self, subtrees: [(u32, usize); N]) -> ArrayVec<u32, ARITY> {
         let mut children = ArrayVec::new();
-        let mut open: ArrayVec<_, LANES> = subtrees.into_iter().collect();
+        let mut open: ArrayVec<_, ARITY> = subtrees.into_iter().collect();
         while let Some((index, k)) = open.pop() {
             match self.fewest(index, k) {
                 1 => children.push(index),

@@ -8,7 +8,7 @@ use super::parallel::available_threads;
 use super::top_level::build_top_level;
 use crate::accel::tree::{Aabb, Bvh, Child, Forest, Node, Place};
 use crate::shape::{Instance, Placement, TriangleMesh};
-use crate::simd::LANES;
+use crate::simd::ARITY;
 
 /// The trees of all meshes that have instances, there and where their instances stand. Instances are shapes that count on from the
 /// meshes. Leaves hold at most `max_in_leaf` triangles.
@@ -74,7 +74,7 @@ fn place(tree: u32, shape: u32, placement: &Placement, bvh: &Bvh) -> Option<Plac
 fn bounds(place: &Place, trees: &[Bvh]) -> Aabb {
     let root = &trees[place.tree as usize].nodes[0];
     let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for slot in 0..LANES {
+    for slot in 0..ARITY {
         if root.planes[0][slot] > root.planes[3][slot] {
             continue;
         }

@@ -3,11 +3,10 @@
 use std::ops::Range;
 
 use arrayvec::ArrayVec;
-use glam::Vec3;
 
 use super::collapse::Choices;
 use crate::accel::tree::{Aabb, Child, Node};
-use crate::simd::LANES;
+use crate::simd::{ARITY, LANES};
 
 /// The items of a tree, and how leaves are made of them.
 pub trait Contents {
@@ -55,7 +54,7 @@ struct Open {
     level: usize,
 }
 
-/// Appends the nodes of a tree to `nodes`. Returns what stands for it in the node above: up to sixteen children, as many
+/// Appends the nodes of a tree to `nodes`. Returns what stands for it in the node above: up to eight children, as many
 /// as cost least where each costs `child_cost`.
 ///
 /// The tree has at most `levels` levels of nodes. Those must suffice for equally deep leaves of `C::GUARANTEED` items.
@@ -65,11 +64,11 @@ pub fn lay_out<C: Contents>(
     child_cost: f32,
     levels: usize,
     nodes: &mut Vec<Node>,
-) -> ArrayVec<Root, LANES> {
+) -> ArrayVec<Root, ARITY> {
     let mut layout = Layout { choices, contents, items: Vec::new(), stack: Vec::new() };
     // From here down, whatever is no leaf yet is unsorted, which takes the remaining levels at most.
     let sorted_levels = levels - layout.unsorted_levels();
-    let mut roots = ArrayVec::<Root, LANES>::new();
+    let mut roots = ArrayVec::<Root, ARITY>::new();
     let mut open = Vec::new();
     for subtree in choices.roots(child_cost) {
         let root = roots.len();
@@ -88,14 +87,16 @@ pub fn lay_out<C: Contents>(
             Some((node, slot)) => nodes[node].children[slot] = index as u32,
         }
         let children = layout.children(below);
-        let boxes: ArrayVec<Aabb, LANES> = children.iter().map(|c| layout.bounds(c)).collect();
         let mut node = Node::EMPTY;
         let first = open.len();
-        for ((below, bounds), slot) in children.into_iter().zip(&boxes).zip(assign_slots(&boxes)) {
+        let mut children: ArrayVec<(Aabb, Below), ARITY> =
+            children.into_iter().map(|below| (layout.bounds(&below), below)).collect();
+        smallest_first(&mut children, |(bounds, _)| bounds);
+        for (slot, (bounds, below)) in children.into_iter().enumerate() {
             let (bits, depth) = layout.leaf_or(below, level < sorted_levels, |below| {
                 open.push(Open { below, parent: Some((index, slot)), root, level: level + 1 });
             });
-            node.set(slot, bounds, bits);
+            node.set(slot, &bounds, bits);
             roots[root].depth = roots[root].depth.max(level + depth);
         }
         // Depth first: nodes follow one another in the order of the children.
@@ -120,7 +121,7 @@ impl<C: Contents> Layout<'_, C> {
         let (mut levels, mut room) = (0, C::GUARANTEED);
         while room < count {
             levels += 1;
-            room *= LANES;
+            room *= ARITY;
         }
         levels
     }
@@ -161,16 +162,16 @@ impl<C: Contents> Layout<'_, C> {
     }
 
     /// The children of a node.
-    fn children(&self, node: Below) -> ArrayVec<Below, LANES> {
+    fn children(&self, node: Below) -> ArrayVec<Below, ARITY> {
         match node {
             Below::Subtree(index) => {
                 self.choices.children(index).into_iter().map(Below::Subtree).collect()
             }
             Below::Unsorted(items) => {
-                // At most sixteen shares, each as many items as always fit into full nodes below it.
+                // At most eight shares, each as many items as always fit into full nodes below it.
                 let mut share = C::GUARANTEED;
-                while share * LANES < items.len() {
-                    share *= LANES;
+                while share * ARITY < items.len() {
+                    share *= ARITY;
                 }
                 items.chunks(share).map(|share| Below::Unsorted(share.to_vec())).collect()
             }
@@ -188,26 +189,7 @@ impl<C: Contents> Layout<'_, C> {
     }
 }
 
-/// A slot for each child, in an octant of the node near to where the child lies; see [`Node`].
-pub fn assign_slots(boxes: &[Aabb]) -> ArrayVec<usize, LANES> {
-    let all = boxes.iter().fold(Aabb::EMPTY, |all, one| all.including(one.min).including(one.max));
-    let from_center = |one: &Aabb| one.min - all.min + (one.max - all.max);
-    // Greedily: the children farthest from the center choose first.
-    let mut order: ArrayVec<usize, LANES> = (0..boxes.len()).collect();
-    let key = |&child: &usize| from_center(&boxes[child]).abs().element_sum();
-    order.sort_by(|a, b| key(b).total_cmp(&key(a)));
-    let mut free = [2_u8; 8];
-    let mut slots: ArrayVec<usize, LANES> = boxes.iter().map(|_| 0).collect();
-    for child in order {
-        let direction = from_center(&boxes[child]);
-        let fit = |octant: usize| {
-            let sign = |axis: usize| if octant >> axis & 1 == 1 { 1.0 } else { -1.0 };
-            direction.dot(Vec3::new(sign(0), sign(1), sign(2)))
-        };
-        let open = (0..8).filter(|&octant| free[octant] > 0);
-        let best = open.max_by(|&a, &b| fit(a).total_cmp(&fit(b))).expect("16 slots");
-        free[best] -= 1;
-        slots[child] = 2 * best + usize::from(free[best]);
-    }
-    slots
+/// Sorts children by the surface area of their boxes, as [`Node`] wants them.
+pub fn smallest_first<T>(children: &mut [T], bounds: impl Fn(&T) -> &Aabb) {
+    children.sort_by(|a, b| bounds(a).half_area().total_cmp(&bounds(b).half_area()));
 }

@@ -2,19 +2,18 @@
 
 use std::ops::Range;
 
-use arrayvec::ArrayVec;
 use obvhs::Boundable;
 
 use super::binary_tree::BinaryTreeBuilder;
 use super::collapse::{Collapse, TOO_MANY};
-use super::layout::{Contents, Root, assign_slots, lay_out};
+use super::layout::{Contents, Root, lay_out, smallest_first};
 use super::partition::MAX_PARTS;
 use crate::accel::tree::{Aabb, Node};
-use crate::simd::LANES;
+use crate::simd::{ARITY, LANES};
 
 /// Most levels of nodes above the treelets, with the root.
-pub const TOP_LEVELS: usize = 6;
-const _: () = assert!(MAX_PARTS * LANES <= LANES.pow(TOP_LEVELS as u32 - 1));
+pub const TOP_LEVELS: usize = 8;
+const _: () = assert!(MAX_PARTS * ARITY <= ARITY.pow(TOP_LEVELS as u32 - 1));
 
 /// Builds a tree over the roots of the treelets: fills in the root, which is the first of `nodes`, and appends the nodes
 /// between. Returns the depth of the whole tree.
@@ -23,9 +22,9 @@ pub fn build_top_level(roots: &[Root], nodes: &mut Vec<Node>) -> usize {
     let mut collapse = Collapse::default();
     // Each root counts as more than fits into a leaf, so that none are merged into one.
     let choices = collapse.choose(trees.build(roots), LANES, |_| TOO_MANY);
-    let children = lay_out(&choices, &mut TopContents(roots), 0.0, TOP_LEVELS - 1, nodes);
-    let boxes: ArrayVec<Aabb, LANES> = children.iter().map(|child| child.bounds).collect();
-    for (child, slot) in children.iter().zip(assign_slots(&boxes)) {
+    let mut children = lay_out(&choices, &mut TopContents(roots), 0.0, TOP_LEVELS - 1, nodes);
+    smallest_first(&mut children, |child| &child.bounds);
+    for (slot, child) in children.iter().enumerate() {
         nodes[0].set(slot, &child.bounds, child.bits);
     }
     1 + children.iter().map(|child| child.depth).max().unwrap_or(0)

@@ -11,18 +11,18 @@ use super::layout::{Contents, Root, lay_out};
 use super::primitives::Primitives;
 use super::top_level::TOP_LEVELS;
 use crate::accel::tree::{Aabb, Leaves, MAX_DEPTH, MAX_TRIANGLES, Node, Triangle};
-use crate::simd::LANES;
+use crate::simd::{ARITY, LANES};
 
 /// Most levels of nodes in a treelet. If all leaves are equally deep, three levels fewer have room for all triangles
 /// that a tree can have. So at least three levels are left to the heuristic.
 const TREELET_LEVELS: usize = MAX_DEPTH - TOP_LEVELS;
 const _: () =
-    assert!(TreeletContents::GUARANTEED * LANES.pow(TREELET_LEVELS as u32 - 3) >= MAX_TRIANGLES);
+    assert!(TreeletContents::GUARANTEED * ARITY.pow(TREELET_LEVELS as u32 - 3) >= MAX_TRIANGLES);
 
 /// The tree over one part of the triangles, in its final layout.
 pub struct Treelet {
     /// What the top level is built over: the treelet as one child or several.
-    pub roots: ArrayVec<Root, LANES>,
+    pub roots: ArrayVec<Root, ARITY>,
     /// Indices in it count from 0.
     pub nodes: Vec<Node>,
     pub leaves: Leaves,

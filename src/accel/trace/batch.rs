@@ -5,7 +5,7 @@ use arrayvec::ArrayVec;
 use super::beam::trace_beam;
 use super::frustum::MAX_PACKETS;
 use super::packet::Packet;
-use super::single_ray::{AnyHit, ClosestHit, Found, Start};
+use super::single_ray::{AnyHit, ClosestHit, Start};
 use super::space::World;
 use super::stack::Stack;
 use crate::accel::tree::Bvh;
@@ -19,8 +19,8 @@ pub trait Answer: Sized {
     const ANY: bool;
     /// The answers of a packet that was traced.
     fn of_packet<L: Lanes>(bvh: &Bvh, packet: &Packet<L>, answers: &mut [Self; LANES]);
-    /// The answer of a ray that is traced by itself.
-    fn of_ray<L: Lanes>(bvh: &Bvh, stack: &mut Stack, ray: &Ray) -> Self;
+    /// Traces a ray by itself.
+    fn trace<L: Lanes>(&mut self, bvh: &Bvh, stack: &mut Stack, ray: &Ray);
 }
 
 impl Answer for Hit {
@@ -32,18 +32,10 @@ impl Answer for Hit {
     }
 
     #[inline(always)]
-    fn of_ray<L: Lanes>(bvh: &Bvh, stack: &mut Stack, ray: &Ray) -> Self {
-        Self::from_found(bvh, L::call(bvh, stack, ray, ClosestHit(World, Start::ROOT)))
-    }
-}
-
-impl Hit {
-    /// From the result of [`ClosestHit`].
-    #[inline]
-    pub(in crate::accel) fn from_found(bvh: &Bvh, found: Found) -> Self {
-        let Some((hit, id)) = found else { return Self::MISS };
-        let (shape, triangle) = bvh.shape_and_triangle(id);
-        Self { t: hit.t, b: hit.b, shape, triangle }
+    fn trace<L: Lanes>(&mut self, bvh: &Bvh, stack: &mut Stack, ray: &Ray) {
+        *self = Self::MISS;
+        L::call(bvh, stack, ray, ClosestHit { space: World, start: Start::ROOT, hit: self });
+        bvh.tell_shape(self);
     }
 }
 
@@ -59,8 +51,8 @@ impl Answer for bool {
     }
 
     #[inline(always)]
-    fn of_ray<L: Lanes>(bvh: &Bvh, stack: &mut Stack, ray: &Ray) -> Self {
-        L::call(bvh, stack, ray, AnyHit(World, Start::ROOT))
+    fn trace<L: Lanes>(&mut self, bvh: &Bvh, stack: &mut Stack, ray: &Ray) {
+        *self = L::call(bvh, stack, ray, AnyHit(World, Start::ROOT));
     }
 }
 
@@ -130,6 +122,6 @@ fn trace_singly<L: Lanes, A: Answer>(
     answers: &mut [A],
 ) {
     for (ray, answer) in rays.iter().zip(answers) {
-        *answer = A::of_ray::<L>(bvh, stack, ray);
+        answer.trace::<L>(bvh, stack, ray);
     }
 }

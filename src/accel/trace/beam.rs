@@ -5,8 +5,9 @@ use super::packet::Packet;
 use super::single_ray::{AnyHit, ClosestHit, Start};
 use super::space::World;
 use super::stack::Stack;
-use crate::accel::tree::{Bvh, Child, Leaf};
-use crate::simd::{LANES, Lanes, Mask};
+use crate::accel::tree::{Bvh, Child, Leaf, Node};
+use crate::interaction::Hit;
+use crate::simd::{ARITY, Lanes, Mask};
 
 /// Minimum mean rays per leaf for beam tracing to pay: of several packets, or of one that asks for any hit, which single
 /// rays find soon.
@@ -33,41 +34,39 @@ pub fn trace_beam<L: Lanes, const N: usize>(
     any_hit: bool,
 ) -> bool {
     let min_per_leaf = if N > 1 || any_hit { MIN_PER_LEAF } else { MIN_PER_LEAF_CLOSEST };
-    let Some(mut frustum) = Frustum::new(packets, bvh, min_per_leaf) else { return false };
+    let Some(mut frustum) = Frustum::new::<L, N>(packets, bvh, min_per_leaf) else { return false };
+    let padding = L::splat(frustum.padding);
     let (mut stack_len, mut index) = (0, 0);
     'nodes: loop {
-        let (lanes, distances) = frustum.lanes_met(&bvh.nodes[index as usize]);
-        let first_slot = index * LANES as u32;
-        stack_len = stack.push_slots(stack_len, lanes, first_slot, distances, frustum.flip);
+        let (met, distances) = frustum.met::<L::Boxes>(&bvh.nodes[index as usize]);
+        let first_slot = index * ARITY as u32;
+        stack_len = if any_hit {
+            stack.push_any_slots(stack_len, met, first_slot, distances)
+        } else {
+            stack.push_slots(stack_len, met, first_slot, distances)
+        };
         while let Some(slot) = stack.pop(&mut stack_len, 0, frustum.end()) {
-            let (node, slot) = (&bvh.nodes[slot as usize / LANES], slot as usize % LANES);
-            let (mut rays, mut count) = ([0; N], 0);
-            for (packet, rays) in packets.iter().zip(&mut rays) {
-                *rays = packet.enters(node, slot, frustum.padding);
-                count += rays.count_ones();
-            }
-            if count == 0 {
-                continue;
-            }
+            let (node, slot) = (&bvh.nodes[slot as usize / ARITY], slot as usize % ARITY);
             let mut any = false;
             match Child::unpack(node.children[slot]) {
-                Child::Node(child) if count > MAX_SINGLE_IN_NODE => {
-                    index = child;
-                    continue 'nodes;
-                }
-                Child::Node(node) => {
+                Child::Node(child) => {
+                    let Some(rays) = few_that_enter(packets, node, slot, padding) else {
+                        index = child;
+                        continue 'nodes;
+                    };
                     for (packet, rays) in packets.iter_mut().zip(rays) {
-                        let start = Start { node, stack_len };
+                        let start = Start { node: child, stack_len };
                         any |= trace_singly(bvh, stack, packet, rays, start, any_hit);
                     }
                 }
                 Child::Leaf { index, vertices } => {
                     let leaf = bvh.leaves.get(index, vertices);
-                    for (i, (packet, rays)) in packets.iter_mut().zip(rays).enumerate() {
+                    for (i, packet) in packets.iter_mut().enumerate() {
+                        let rays = packet.enters(node, slot, padding);
                         let hit = if rays.count_ones() <= MAX_SINGLE_IN_LEAF {
                             intersect_few(packet, rays, leaf)
                         } else {
-                            intersect_all(packet, frustum.candidates(leaf, i), leaf)
+                            intersect_all(packet, frustum.candidates::<L>(leaf, i), leaf)
                         };
                         any |= hit != 0;
                         if any_hit && hit != 0 {
@@ -77,11 +76,31 @@ pub fn trace_beam<L: Lanes, const N: usize>(
                 }
             }
             if any {
-                frustum.shorten(packets);
+                frustum.shorten::<L, N>(packets);
             }
         }
         return true;
     }
+}
+
+/// The rays that enter a box, if they are at most [`MAX_SINGLE_IN_NODE`].
+#[inline(always)]
+fn few_that_enter<L: Lanes, const N: usize>(
+    packets: &[Packet<L>; N],
+    node: &Node,
+    slot: usize,
+    padding: L,
+) -> Option<[Mask; N]> {
+    let (mut rays, mut count) = ([0; N], 0);
+    for (packet, rays) in packets.iter().zip(&mut rays) {
+        *rays = packet.enters(node, slot, padding);
+        count += rays.count_ones();
+        // Mostly true of the first packet.
+        if count > MAX_SINGLE_IN_NODE {
+            return None;
+        }
+    }
+    Some(rays)
 }
 
 /// Traces some rays of a packet on one by one; returns whether one found a nearer hit.
@@ -104,8 +123,10 @@ fn trace_singly<L: Lanes>(
                 packet.set_hit(i, f32::NEG_INFINITY, [0.0; 3], 0);
                 any = true;
             }
-        } else if let Some((hit, id)) = L::call(bvh, stack, ray, ClosestHit(World, start)) {
-            any |= packet.set_hit(i, hit.t, hit.b, id);
+        } else {
+            let mut hit = Hit::MISS;
+            L::call(bvh, stack, ray, ClosestHit { space: World, start, hit: &mut hit });
+            any |= hit.triangle != u32::MAX && packet.set_hit(i, hit.t, hit.b, hit.triangle);
         }
     }
     any

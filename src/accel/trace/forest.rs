@@ -7,7 +7,7 @@ use super::stack::Stack;
 use crate::accel::tree::{Child, Forest, Place};
 use crate::geometry::Ray;
 use crate::interaction::Hit;
-use crate::simd::{Kernel, LANES, Lanes, Mask};
+use crate::simd::{ARITY, Kernel, LaneMask, Lanes};
 
 /// What rays hit in a forest, added to answers that are known from elsewhere.
 pub struct InForest<'a, A> {
@@ -54,17 +54,16 @@ fn walk<L: Lanes, const ANY: bool>(
 ) -> bool {
     let Some(mut node) = forest.nodes.first() else { return false };
     let mut ray = Ray { t_max: ray.t_max.min(best.t), ..*ray };
-    let mut slabs = Slabs::<L>::new(&ray, forest.largest_coordinate);
+    let mut slabs = Slabs::<L::Boxes>::new(&ray, forest.largest_coordinate);
     let mut stack_len = 0;
     'nodes: loop {
-        let (lanes, distances) = slabs.lanes_met(node);
+        let (met, distances) = slabs.met(node);
+        let slots = met.bits();
         let mut child;
-        if lanes != 0 {
-            let above = lanes.leading_zeros();
-            let others = lanes ^ 1 << (Mask::BITS - 1) >> above;
-            child = node.children[(above ^ slabs.flip_near_first) as usize % LANES];
-            stack_len =
-                stack.push_children(stack_len, others, &node.children, distances, slabs.flip);
+        if slots & slots.wrapping_sub(1) != 0 {
+            child = stack.push_children(&mut stack_len, met, &node.children, distances);
+        } else if slots != 0 {
+            child = node.children[slots.trailing_zeros() as usize % ARITY];
         } else if let Some(next) = stack.pop(&mut stack_len, 0, slabs.end) {
             child = next;
         } else {
@@ -111,8 +110,10 @@ fn hit<L: Lanes>(
     start: Start,
 ) -> Option<Hit> {
     let tree = &forest.trees[place.tree as usize];
-    let (hit, triangle) = L::call(tree, stack, ray, ClosestHit(Elsewhere(place), start))?;
-    Some(Hit { t: hit.t, b: hit.b, shape: place.shape, triangle })
+    let mut hit = Hit::MISS;
+    L::call(tree, stack, ray, ClosestHit { space: Elsewhere(place), start, hit: &mut hit });
+    hit.shape = place.shape;
+    (hit.triangle != u32::MAX).then_some(hit)
 }
 
 #[inline(always)]

@@ -4,26 +4,24 @@ use super::leaf_test::permute3;
 use super::packet::{Packet, lane3};
 use crate::accel::tree::{Bvh, Leaf, Node};
 use crate::shape::ShearedRay;
-use crate::simd::{LANES, LaneMask, Lanes, Mask, splat3};
+use crate::simd::{Eight, Float, LANES, LaneMask, Lanes, Mask, splat3};
 
 /// The frustum around a beam of one to [`MAX_PACKETS`] packets: the space between four side planes and two ends.
 ///
 /// Relative to the origin of the first ray, each ray is a line x = a + s z with |s| at most 1, since z is the largest axis of
 /// its direction; y likewise. The largest x of all rays is a convex function of z, so the line between its values at
 /// both ends bounds it.
-pub struct Frustum<L> {
+pub struct Frustum {
     /// The axes that become x, y and z.
     axes: [usize; 3],
     /// Origin of the first ray.
-    base: [L; 3],
+    base: [f32; 3],
     /// By how much boxes and triangles are enlarged, as a bound on rounding errors.
-    pub padding: L,
+    pub padding: f32,
     /// Smallest and largest z.
-    ends: [L; 2],
+    ends: [f32; 2],
     /// Whether the directions are negative along z.
     backwards: bool,
-    /// Lane `i ^ flip` of the boxes becomes lane i, so that those the rays meet first come last.
-    pub flip: u32,
     /// Side planes around all packets.
     sides: Sides,
     /// Side planes around each.
@@ -49,19 +47,19 @@ struct Line {
 
 impl Line {
     #[inline(always)]
-    fn at<L: Lanes>(&self, z: L) -> L {
-        L::splat(self.a) + L::splat(self.s) * z
+    fn at<F: Float>(&self, z: F) -> F {
+        F::splat(self.a) + F::splat(self.s) * z
     }
 
     /// The smallest x between two z.
     #[inline(always)]
-    fn min<L: Lanes>(&self, [low, high]: [L; 2]) -> L {
+    fn min<F: Float>(&self, [low, high]: [F; 2]) -> F {
         self.at(if self.s < 0.0 { high } else { low })
     }
 
     /// The largest x between two z.
     #[inline(always)]
-    fn max<L: Lanes>(&self, [low, high]: [L; 2]) -> L {
+    fn max<F: Float>(&self, [low, high]: [F; 2]) -> F {
         self.at(if self.s < 0.0 { low } else { high })
     }
 }
@@ -81,11 +79,11 @@ impl Sides {
     }
 }
 
-impl<L: Lanes> Frustum<L> {
+impl Frustum {
     /// The frustum of aligned packets; none if it is so wide that fewer than `min_per_leaf` rays come to a leaf of mean
     /// area.
     #[inline(always)]
-    pub fn new<const N: usize>(
+    pub fn new<L: Lanes, const N: usize>(
         packets: &[Packet<L>; N],
         bvh: &Bvh,
         min_per_leaf: f32,
@@ -133,11 +131,10 @@ impl<L: Lanes> Frustum<L> {
         let is_narrow = area * min_per_leaf <= rays * bvh.mean_leaf_area || ends[0] > ends[1];
         is_narrow.then(|| Self {
             axes: first.sheared.axes,
-            base: splat_base,
-            padding: L::splat(padding),
-            ends: [L::splat(ends[0]), L::splat(ends[1])],
+            base,
+            padding,
+            ends,
             backwards: first.backwards,
-            flip: first.octant() << 1 ^ (LANES as u32 - 1),
             sides: Sides::new([min, max], ends[0], per_length),
             of_packets,
         })
@@ -145,8 +142,8 @@ impl<L: Lanes> Frustum<L> {
 
     /// Moves the far end to the farthest of the rays' nearest hits.
     #[inline(always)]
-    pub fn shorten<const N: usize>(&mut self, packets: &[Packet<L>; N]) {
-        let end = L::splat(end(packets, self.base[2]));
+    pub fn shorten<L: Lanes, const N: usize>(&mut self, packets: &[Packet<L>; N]) {
+        let end = end(packets, L::splat(self.base[2]));
         if self.backwards {
             self.ends[0] = self.ends[0].max(end);
         } else {
@@ -154,28 +151,27 @@ impl<L: Lanes> Frustum<L> {
         }
     }
 
-    /// Where the beam ends, to be compared with the distances of [`Frustum::lanes_met`].
+    /// Where the beam ends, to be compared with the distances of [`Frustum::met`].
     #[inline(always)]
     pub fn end(&self) -> f32 {
-        if self.backwards { -self.ends[0].lane(0) } else { self.ends[1].lane(0) }
+        if self.backwards { -self.ends[0] } else { self.ends[1] }
     }
 
-    /// The lanes whose boxes the beam may enter, flipped by `flip`, so that far children come first; and how far along z
-    /// they begin, for [`super::stack::Stack::push_slots`].
+    /// The children whose boxes the beam may enter, and how far along z they begin.
     #[inline(always)]
-    pub fn lanes_met(&self, node: &Node) -> (Mask, L) {
-        let ends = self.extent(node, 2);
-        let in_ends = ends[0].le(self.ends[1]) & self.ends[0].le(ends[1]);
+    pub fn met<B: Eight>(&self, node: &Node) -> (B::Mask, B) {
+        let ends = self.extent::<B>(node, 2);
+        let in_ends = ends[0].le(B::splat(self.ends[1])) & B::splat(self.ends[0]).le(ends[1]);
         let met = in_ends & self.overlaps(node, 0, ends) & self.overlaps(node, 1, ends);
         let near = if self.backwards { -ends[1] } else { ends[0] };
-        (L::flip_mask(met, self.flip), near)
+        (met, near)
     }
 
     /// The lanes of the triangles of a leaf that the rays of one packet may hit.
     #[inline(always)]
-    pub fn candidates(&self, leaf: Leaf, packet: usize) -> Mask {
+    pub fn candidates<L: Lanes>(&self, leaf: Leaf, packet: usize) -> Mask {
         let sides = &self.of_packets[packet % MAX_PACKETS];
-        let z = leaf.vertices::<L>(self.axes[2]) - self.base[2];
+        let z = leaf.vertices::<L>(self.axes[2]) - L::splat(self.base[2]);
         let corners = leaf.corners();
         let x_between = self.between_sides(leaf, 0, z, sides, corners);
         let y_between = self.between_sides(leaf, 1, z, sides, corners);
@@ -184,7 +180,7 @@ impl<L: Lanes> Frustum<L> {
 
     /// The lanes of triangles that are not beyond a side plane in x (`i` = 0) or y.
     #[inline(always)]
-    fn between_sides(
+    fn between_sides<L: Lanes>(
         &self,
         leaf: Leaf,
         i: usize,
@@ -192,27 +188,27 @@ impl<L: Lanes> Frustum<L> {
         sides: &Sides,
         corners: [L::Indices; 3],
     ) -> L::Mask {
-        let x = leaf.vertices::<L>(self.axes[i]) - self.base[i];
+        let x = leaf.vertices::<L>(self.axes[i]) - L::splat(self.base[i]);
         // How far inside either plane each vertex is, and the largest of each triangle.
         let above = max_of_corners(x - sides.low[i].at(z), corners);
         let below = max_of_corners(sides.high[i].at(z) - x, corners);
-        let limit = -self.padding;
+        let limit = L::splat(-self.padding);
         limit.le(above) & limit.le(below)
     }
 
     /// The padded extents of the children along an axis.
     #[inline(always)]
-    fn extent(&self, node: &Node, i: usize) -> [L; 2] {
-        let axis = self.axes[i];
-        let low = L::load(&node.planes[axis % 3]).flip(self.flip);
-        let high = L::load(&node.planes[axis % 3 + 3]).flip(self.flip);
-        [low - self.base[i] - self.padding, high - self.base[i] + self.padding]
+    fn extent<B: Eight>(&self, node: &Node, i: usize) -> [B; 2] {
+        let (axis, base, padding) = (self.axes[i], B::splat(self.base[i]), B::splat(self.padding));
+        let low = B::load(&node.planes[axis % 3]);
+        let high = B::load(&node.planes[axis % 3 + 3]);
+        [low - base - padding, high - base + padding]
     }
 
     /// The lanes of children that are not beyond a side plane in x (`i` = 0) or y.
     #[inline(always)]
-    fn overlaps(&self, node: &Node, i: usize, ends: [L; 2]) -> L::Mask {
-        let [low, high] = self.extent(node, i);
+    fn overlaps<B: Eight>(&self, node: &Node, i: usize, ends: [B; 2]) -> B::Mask {
+        let [low, high] = self.extent::<B>(node, i);
         self.sides.low[i].min(ends).le(high) & low.le(self.sides.high[i].max(ends))
     }
 }

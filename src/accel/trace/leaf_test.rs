@@ -2,7 +2,7 @@
 
 use super::space::Space;
 use crate::accel::tree::Leaf;
-use crate::shape::{Crossing, Edges, ShearedRay, TriangleHit};
+use crate::shape::{Crossing, Edges, Reach, ShearedRay, TriangleHit};
 use crate::simd::{LaneMask, Mask, Vector, splat3};
 
 /// A ray prepared for the triangles of leaves, all of which it tests at once.
@@ -15,20 +15,22 @@ pub struct LeafTest<V> {
 pub struct Candidates<V> {
     /// Their lanes.
     pub lanes: Mask,
-    /// Those of them with an edge function of zero, which need the scalar test and its f64 fallback.
+    /// Those of them that need the scalar test: an edge function is zero, or t is not sure.
     pub undecided: Mask,
     /// Where the ray hits each.
-    pub t: V,
+    pub crossing: Crossing<V>,
 }
 
 impl<V: Vector> LeafTest<V> {
     #[inline(always)]
     pub fn new(sheared: &ShearedRay, t_min: f32) -> Self {
+        // Spread over vectors here, each time, which is cheaper than to keep so many vectors while nodes are walked.
+        let sheared = std::hint::black_box(sheared);
         let (o, shear) = (splat3(sheared.o), splat3(sheared.shear));
         Self { ray: ShearedRay { o, axes: sheared.axes, shear }, t_min: V::splat(t_min) }
     }
 
-    /// The triangles that the ray hits no later than `t_max`, whether or not t exceeds the bound on its error.
+    /// The triangles that the ray hits no later than `t_max`.
     #[inline(always)]
     pub fn candidates<S: Space>(&self, space: S, leaf: Leaf, t_max: V) -> Option<Candidates<V>> {
         let ray = &self.ray;
@@ -38,16 +40,28 @@ impl<V: Vector> LeafTest<V> {
         let x = ray.sheared(0, x, z);
         let y = ray.sheared(1, y, z);
         let corners = space.order(leaf.corners());
-        let edges = Edges::new(permute3(x, corners), permute3(y, corners));
+        let (x, y) = (permute3(x, corners), permute3(y, corners));
+        let edges = Edges::new(x, y);
         let on_edge = edges.any_zero();
         let lanes = (edges.inside() | on_edge).bits() & leaf.lanes();
         if lanes == 0 {
             return None;
         }
-        let crossing = Crossing::new(edges, permute3(z, corners), ray);
-        let undecided = on_edge.bits() & lanes;
-        let in_range = crossing.is_within(self.t_min, t_max).bits();
-        Some(Candidates { lanes: lanes & in_range | undecided, undecided, t: crossing.t })
+        let z = permute3(z, corners);
+        let crossing = Crossing::new(edges, z, ray);
+        let on_edge = on_edge.bits() & lanes;
+        // Of triangles that a ray leaves or has left behind there is no more to know.
+        let lanes = (crossing.t.gt(V::splat(0.0)).bits() & lanes) | on_edge;
+        if lanes == 0 {
+            return None;
+        }
+        let reach = Reach::new([x, y, z]);
+        let sure = crossing.is_sure(&reach);
+        let candidates =
+            (crossing.is_within(self.t_min, t_max) | !sure) & V::Mask::from_bits(lanes);
+        let in_front = crossing.is_in_front(&reach, candidates) & candidates;
+        let undecided = (in_front & !sure).bits() | on_edge;
+        Some(Candidates { lanes: in_front.bits() | undecided, undecided, crossing })
     }
 }
 

@@ -1,14 +1,12 @@
 //! [`Packet`]: sixteen rays of similar direction, against one box or one triangle at a time.
 
-use glam::Vec3A;
-
 use super::leaf_test::{LeafTest, intersect_triangle};
 use super::space::World;
 use crate::accel::tree::{Bvh, Leaf, Node};
 use crate::geometry::Ray;
 use crate::interaction::Hit;
-use crate::shape::{Crossing, Edges, ShearedRay, TriangleHit, longest_axis};
-use crate::simd::{LANES, LaneMask, Lanes, Mask, Vector, splat3};
+use crate::shape::{Crossing, Edges, Reach, ShearedRay, TriangleHit, longest_axis};
+use crate::simd::{ARITY, LANES, LaneMask, Lanes, Mask, Vector, splat3};
 
 /// Sixteen rays whose directions have the same largest axis, with the same sign, and the nearest hit of each so far.
 pub struct Packet<'a, L> {
@@ -100,7 +98,7 @@ impl<'a, L: Lanes> Packet<'a, L> {
     #[inline(always)]
     fn extent(&self, node: &Node, slot: usize, i: usize, padding: L) -> [L; 2] {
         let (axis, o) = (self.sheared.axes[i] % 3, self.sheared.o[i]);
-        let (low, high) = (node.planes[axis][slot % LANES], node.planes[axis + 3][slot % LANES]);
+        let (low, high) = (node.planes[axis][slot % ARITY], node.planes[axis + 3][slot % ARITY]);
         [L::splat(low) - o - padding, L::splat(high) - o + padding]
     }
 
@@ -130,14 +128,18 @@ impl<'a, L: Lanes> Packet<'a, L> {
         let corners = self.sheared.corners(|axis| leaf.coordinates(vertices, axis));
         let [x, y, z] = corners;
         let edges = Edges::new(x, y);
-        let on_edge = edges.any_zero();
-        let inside = edges.inside() & !on_edge;
+        let mut undecided = edges.any_zero();
+        let inside = edges.inside() & !undecided;
         let mut all = 0;
         if inside.any() {
             let crossing = Crossing::new(edges, z, &self.sheared);
-            let mut hit = inside & crossing.is_within(self.t_min, self.t_max);
+            let reach = Reach::new(corners);
+            let sure = crossing.is_sure(&reach);
+            let mut hit = inside & (crossing.is_within(self.t_min, self.t_max) | !sure);
             if hit.any() {
-                hit = hit & crossing.is_in_front(corners);
+                hit = hit & crossing.is_in_front(&reach, hit);
+                undecided = undecided | (hit & !sure);
+                hit = hit & sure;
                 // Of two at the same distance the one with the lower id counts.
                 let tied = hit & crossing.t.eq(self.t_max);
                 hit = hit & crossing.t.lt(self.t_max) | self.with_larger_id(id, tied);
@@ -145,8 +147,8 @@ impl<'a, L: Lanes> Packet<'a, L> {
                 all = hit.bits();
             }
         }
-        if on_edge.any() {
-            all |= self.intersect_scalar(leaf, lane, id, on_edge.bits());
+        if undecided.any() {
+            all |= self.intersect_scalar(leaf, lane, id, undecided.bits());
         }
         all
     }
@@ -174,7 +176,7 @@ impl<'a, L: Lanes> Packet<'a, L> {
         rays & L::Mask::from_bits((0..LANES).fold(0, |mask, i| mask | is_larger(i)))
     }
 
-    /// Tests rays with an edge function of zero one by one, which takes f64.
+    /// Tests rays one by one that need the scalar test.
     #[inline(always)]
     fn intersect_scalar(&mut self, leaf: Leaf, lane: u32, id: u32, mut rays: Mask) -> Mask {
         let mut all = 0;
@@ -192,12 +194,6 @@ impl<'a, L: Lanes> Packet<'a, L> {
     #[inline(always)]
     pub fn is_aligned_with(&self, other: &Self) -> bool {
         self.sheared.axes == other.sheared.axes && self.backwards == other.backwards
-    }
-
-    /// The axes along which the first ray's direction is negative, x lowest.
-    #[inline(always)]
-    pub fn octant(&self) -> u32 {
-        Vec3A::from(self.rays[0].d).is_negative_bitmask()
     }
 
     /// Where each ray ends along z, relative to `base`.
@@ -251,9 +247,7 @@ impl<'a, L: Lanes> Packet<'a, L> {
             *hit = Hit { t, b: [b[0][i], b[1][i], b[2][i]], shape, triangle: id(i) };
         }
         if bvh.first_ids.len() > 1 {
-            for hit in hits.iter_mut().filter(|hit| hit.is_hit()) {
-                (hit.shape, hit.triangle) = bvh.shape_and_triangle(hit.triangle);
-            }
+            hits.iter_mut().for_each(|hit| bvh.tell_shape(hit));
         }
     }
 }

@@ -1,16 +1,16 @@
 //! One ray through the tree: [`ClosestHit`] and [`AnyHit`].
 //!
-//! Vectors only pick the triangles that may be hit. The scalar test of [`crate::shape::ShearedRay`] is asked once, about
-//! the nearest, and gives the hit. If it refuses, or if some triangle needs it to be decided, the ray is traced once more
-//! with the scalar test for every candidate.
+//! All triangles of a leaf are tested at once. If for one of them vectors can't tell what the scalar test of
+//! [`crate::shape::ShearedRay`] would, the ray is traced once more with the scalar test for every candidate.
 
 use super::leaf_test::{LeafTest, intersect_triangle};
 use super::space::Space;
 use super::stack::Stack;
 use crate::accel::tree::{Bvh, Child, Leaf};
 use crate::geometry::Ray;
+use crate::interaction::Hit;
 use crate::shape::{ShearedRay, TriangleHit};
-use crate::simd::{Kernel, LANES, Lanes, Mask, Vector};
+use crate::simd::{ARITY, Kernel, LaneMask, Lanes, Vector};
 
 /// Where traversal begins: at the root, or for rays that leave a beam further down.
 #[derive(Clone, Copy)]
@@ -24,45 +24,47 @@ impl Start {
     pub const ROOT: Self = Self { node: 0, stack_len: 0 };
 }
 
-/// A ray's hit, with the id of the triangle.
-pub type Found = Option<(TriangleHit, u32)>;
-
-/// The closest hit of a ray in a space, from some place of the tree on.
-pub struct ClosestHit<S>(pub S, pub Start);
+/// Writes the closest hit of a ray in a space, from some place of the tree on. Leaves `hit` as it is if there is none.
+pub struct ClosestHit<'a, S> {
+    pub space: S,
+    pub start: Start,
+    /// Its triangle is told by its id, its shape is left as it is.
+    pub hit: &'a mut Hit,
+}
 
 /// Whether a ray hits anything in a space, from some place of the tree on.
 pub struct AnyHit<S>(pub S, pub Start);
 
 /// As [`ClosestHit`], with the scalar test for every candidate. A function of its own, since it hardly ever runs.
-struct ClosestHitExact<S>(S, Start);
+struct ClosestHitExact<'a, S>(ClosestHit<'a, S>);
 
 /// As [`AnyHit`], with the scalar test for every candidate.
 struct AnyHitExact<S>(S, Start);
 
-impl<S: Space> Kernel for ClosestHit<S> {
+impl<S: Space> Kernel for ClosestHit<'_, S> {
     type Input = Ray;
     type Data = Bvh;
     type Scratch = Stack;
-    type Output = Found;
+    type Output = ();
 
     #[inline(always)]
-    fn run<L: Lanes>(self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) -> Found {
-        match closest::<L, S, false>(self.0, ray, bvh, stack, self.1) {
-            Ok(found) => found,
-            Err(Undecided) => L::call(bvh, stack, ray, ClosestHitExact(self.0, self.1)),
+    fn run<L: Lanes>(mut self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) {
+        if let Err(Undecided) = closest::<L, S, false>(&mut self, ray, bvh, stack) {
+            L::call(bvh, stack, ray, ClosestHitExact(self));
         }
     }
 }
 
-impl<S: Space> Kernel for ClosestHitExact<S> {
+impl<S: Space> Kernel for ClosestHitExact<'_, S> {
     type Input = Ray;
     type Data = Bvh;
     type Scratch = Stack;
-    type Output = Found;
+    type Output = ();
 
     #[inline(always)]
-    fn run<L: Lanes>(self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) -> Found {
-        closest::<L, S, true>(self.0, ray, bvh, stack, self.1).unwrap_or(None)
+    fn run<L: Lanes>(mut self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) {
+        // Never undecided.
+        let _ = closest::<L, S, true>(&mut self.0, ray, bvh, stack);
     }
 }
 
@@ -93,71 +95,67 @@ impl<S: Space> Kernel for AnyHitExact<S> {
     }
 }
 
-/// Only the scalar test of every candidate can tell: an edge function is zero, or rounding may have made the hit up.
+/// Only the scalar test can tell.
 struct Undecided;
 
-/// The closest hit below a node. With `EXACT`, every candidate takes the scalar test, with its bound on the error of t.
-/// Without, only the nearest does in the end, and nearly always passes.
+/// The closest hit below a node. With `EXACT`, every candidate takes the scalar test.
 #[inline(always)]
 fn closest<L: Lanes, S: Space, const EXACT: bool>(
-    space: S,
+    ClosestHit { space, start, hit }: &mut ClosestHit<S>,
     ray: &Ray,
     bvh: &Bvh,
     stack: &mut Stack,
-    start: Start,
-) -> Result<Found, Undecided> {
+) -> Result<(), Undecided> {
+    let (space, start) = (*space, *start);
     let sheared = ShearedRay::new(ray);
     if bvh.nodes.is_empty() || !is_valid(ray, &sheared) {
-        return Ok(None);
+        return Ok(());
     }
-    let narrow = LeafTest::<L::Narrow>::new(&sheared, ray.t_min);
-    let mut slabs = space.slabs::<L>(ray, bvh);
-    let mut nearest = Nearest { t: ray.t_max, t_min: ray.t_min, triangle: None };
+    let mut slabs = space.slabs::<L::Boxes>(ray, bvh);
+    let mut nearest =
+        Nearest { t: ray.t_max, t_min: ray.t_min, id: NONE, edges: [0.0; 3], determinant: 1.0 };
     let mut stack_len = start.stack_len;
-    let mut node = &bvh.nodes[start.node as usize];
-    'nodes: loop {
-        let (lanes, distances) = slabs.lanes_met(node);
-        let mut child;
-        if lanes != 0 {
-            // The nearest child is in the highest lane. The others go to the stack.
-            let above = lanes.leading_zeros();
-            let others = lanes ^ 1 << (Mask::BITS - 1) >> above;
-            child = node.children[(above ^ slabs.flip_near_first) as usize % LANES];
-            stack_len =
-                stack.push_children(stack_len, others, &node.children, distances, slabs.flip);
-        } else if let Some(next) = stack.pop(&mut stack_len, start.stack_len, slabs.end) {
-            child = next;
-        } else {
-            break;
-        }
-        loop {
-            if let Child::Node(index) = Child::unpack(child) {
-                node = &bvh.nodes[index as usize];
-                continue 'nodes;
-            }
-            let leaf = bvh.leaf(child);
-            let is_nearer = if leaf.fits::<L::Narrow>() {
-                nearest.update::<_, S, EXACT>(space, &narrow, &sheared, leaf, child)?
+    let mut child = start.node;
+    'leaves: loop {
+        while let Child::Node(index) = Child::unpack(child) {
+            let node = &bvh.nodes[index as usize];
+            let (met, distances) = slabs.met(node);
+            let slots = met.bits();
+            if slots & slots.wrapping_sub(1) != 0 {
+                child = stack.push_children(&mut stack_len, met, &node.children, distances);
+            } else if slots != 0 {
+                child = node.children[slots.trailing_zeros() as usize % ARITY];
+            } else if let Some(next) = stack.pop(&mut stack_len, start.stack_len, slabs.end) {
+                child = next;
             } else {
-                let wide = LeafTest::<L>::new(&sheared, ray.t_min);
-                nearest.update::<_, S, EXACT>(space, &wide, &sheared, leaf, child)?
-            };
-            if is_nearer {
-                slabs.shorten(nearest.t);
+                break 'leaves;
             }
-            match stack.pop(&mut stack_len, start.stack_len, slabs.end) {
-                Some(next) => child = next,
-                None => break 'nodes,
-            }
+        }
+        let leaf = bvh.leaf(child);
+        let is_nearer = if leaf.fits::<L::Narrow>() {
+            let narrow = LeafTest::<L::Narrow>::new(&sheared, ray.t_min);
+            nearest.update::<_, S, EXACT>(space, &narrow, &sheared, leaf)?
+        } else {
+            let wide = LeafTest::<L>::new(&sheared, ray.t_min);
+            nearest.update::<_, S, EXACT>(space, &wide, &sheared, leaf)?
+        };
+        if is_nearer {
+            slabs.shorten(nearest.t);
+        }
+        match stack.pop(&mut stack_len, start.stack_len, slabs.end) {
+            Some(next) => child = next,
+            None => break,
         }
     }
-    let Some(LeafTriangle { child, lane, id }) = nearest.triangle else { return Ok(None) };
-    let hit = intersect_triangle(space, &sheared, bvh.leaf(child), lane, ray.t_min, ray.t_max);
-    Ok(Some((hit.ok_or(Undecided)?, id)))
+    if nearest.id != NONE {
+        let [a, b, c] = nearest.edges;
+        let sum = nearest.determinant;
+        (hit.t, hit.b, hit.triangle) = (nearest.t, [a / sum, b / sum, c / sum], nearest.id);
+    }
+    Ok(())
 }
 
-/// Whether the ray hits anything below a node. With `EXACT`, candidates take the scalar test until one passes; without,
-/// only the first does.
+/// Whether the ray hits anything below a node. With `EXACT`, every candidate takes the scalar test.
 #[inline(always)]
 fn any<L: Lanes, S: Space, const EXACT: bool>(
     space: S,
@@ -170,69 +168,86 @@ fn any<L: Lanes, S: Space, const EXACT: bool>(
     if bvh.nodes.is_empty() || !is_valid(ray, &sheared) {
         return Ok(false);
     }
-    let narrow = LeafTest::<L::Narrow>::new(&sheared, ray.t_min);
-    let slabs = space.slabs::<L>(ray, bvh);
+    let slabs = space.slabs::<L::Boxes>(ray, bvh);
     let mut stack_len = start.stack_len;
-    let mut node = &bvh.nodes[start.node as usize];
-    let (leaf, lane) = 'nodes: loop {
-        let slots = slabs.slots_met(node);
-        let mut child;
-        if slots != 0 {
-            // In any order: the first hit ends the search.
-            let slot = slots.trailing_zeros();
-            child = node.children[slot as usize % LANES];
-            let others = slots & (slots - 1);
-            stack_len = stack.push_children(stack_len, others, &node.children, L::splat(0.0), 0);
-        } else if let Some(next) = stack.pop(&mut stack_len, start.stack_len, f32::INFINITY) {
-            child = next;
-        } else {
-            return Ok(false);
-        }
-        loop {
-            if let Child::Node(index) = Child::unpack(child) {
-                node = &bvh.nodes[index as usize];
-                continue 'nodes;
-            }
-            let leaf = bvh.leaf(child);
-            let mut lanes = if leaf.fits::<L::Narrow>() {
-                candidate_lanes(space, &narrow, leaf, ray.t_max)
-            } else {
-                candidate_lanes(space, &LeafTest::<L>::new(&sheared, ray.t_min), leaf, ray.t_max)
-            };
-            if !EXACT && lanes != 0 {
-                break 'nodes (leaf, lanes.trailing_zeros());
-            }
-            while lanes != 0 {
-                let lane = lanes.trailing_zeros();
-                if intersect_triangle(space, &sheared, leaf, lane, ray.t_min, ray.t_max).is_some() {
-                    return Ok(true);
+    let mut child = start.node;
+    loop {
+        while let Child::Node(index) = Child::unpack(child) {
+            let node = &bvh.nodes[index as usize];
+            let slots = slabs.met(node).0.bits();
+            if slots != 0 {
+                // The largest first: the first hit ends the search.
+                let largest = slots.ilog2();
+                child = node.children[largest as usize % ARITY];
+                let others = slots ^ 1 << largest;
+                if others != 0 {
+                    stack_len = stack.push_any::<L::Boxes>(stack_len, others, &node.children);
                 }
-                lanes &= lanes - 1;
-            }
-            match stack.pop(&mut stack_len, start.stack_len, f32::INFINITY) {
-                Some(next) => child = next,
-                None => return Ok(false),
+            } else if let Some(next) = stack.pop_any(&mut stack_len, start.stack_len) {
+                child = next;
+            } else {
+                return Ok(false);
             }
         }
-    };
-    let hit = intersect_triangle(space, &sheared, leaf, lane, ray.t_min, ray.t_max);
-    hit.map(|_| true).ok_or(Undecided)
+        let leaf = bvh.leaf(child);
+        let is_hit = if leaf.fits::<L::Narrow>() {
+            let narrow = LeafTest::<L::Narrow>::new(&sheared, ray.t_min);
+            is_any_hit::<_, S, EXACT>(space, &narrow, &sheared, leaf, ray)?
+        } else {
+            let wide = LeafTest::<L>::new(&sheared, ray.t_min);
+            is_any_hit::<_, S, EXACT>(space, &wide, &sheared, leaf, ray)?
+        };
+        if is_hit {
+            return Ok(true);
+        }
+        match stack.pop_any(&mut stack_len, start.stack_len) {
+            Some(next) => child = next,
+            None => return Ok(false),
+        }
+    }
 }
 
-/// A triangle in a leaf.
-#[derive(Clone, Copy)]
-struct LeafTriangle {
-    /// The encoded child that is the leaf.
-    child: u32,
-    lane: u32,
-    id: u32,
+/// Whether the ray hits a triangle of a leaf.
+#[inline(always)]
+fn is_any_hit<V: Vector, S: Space, const EXACT: bool>(
+    space: S,
+    test: &LeafTest<V>,
+    sheared: &ShearedRay,
+    leaf: Leaf,
+    ray: &Ray,
+) -> Result<bool, Undecided> {
+    let Some(candidates) = test.candidates(space, leaf, V::splat(ray.t_max)) else {
+        return Ok(false);
+    };
+    let is_hit = candidates.lanes & !candidates.undecided != 0;
+    if is_hit || candidates.undecided == 0 {
+        return Ok(is_hit);
+    }
+    if !EXACT {
+        return Err(Undecided);
+    }
+    let mut lanes = candidates.undecided;
+    while lanes != 0 {
+        let lane = lanes.trailing_zeros();
+        lanes &= lanes - 1;
+        if intersect_triangle(space, sheared, leaf, lane, ray.t_min, ray.t_max).is_some() {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
+
+/// The id of no triangle.
+const NONE: u32 = u32::MAX;
 
 /// The nearest hit so far.
 struct Nearest {
     t: f32,
     t_min: f32,
-    triangle: Option<LeafTriangle>,
+    id: u32,
+    /// The barycentric coordinates, and by what they are still to be divided.
+    edges: [f32; 3],
+    determinant: f32,
 }
 
 impl Nearest {
@@ -244,7 +259,6 @@ impl Nearest {
         test: &LeafTest<V>,
         sheared: &ShearedRay,
         leaf: Leaf,
-        child: u32,
     ) -> Result<bool, Undecided> {
         let Some(candidates) = test.candidates(space, leaf, V::splat(self.t)) else {
             return Ok(false);
@@ -257,33 +271,31 @@ impl Nearest {
         while lanes != 0 {
             let lane = lanes.trailing_zeros();
             lanes &= lanes - 1;
-            let mut t = candidates.t.lane(lane);
-            if EXACT {
-                let hit = intersect_triangle(space, sheared, leaf, lane, self.t_min, self.t);
-                let Some(hit) = hit else { continue };
-                t = hit.t;
-            }
+            let crossing = &candidates.crossing;
             let id = leaf.id(lane);
-            // Of two at the same distance the one with the lower id counts.
-            if t < self.t || t == self.t && self.triangle.is_none_or(|other| id < other.id) {
-                self.t = t;
-                self.triangle = Some(LeafTriangle { child, lane, id });
-                is_nearer = true;
+            if EXACT && candidates.undecided >> lane & 1 == 1 {
+                let hit = intersect_triangle(space, sheared, leaf, lane, self.t_min, self.t);
+                let Some(TriangleHit { t, b }) = hit else { continue };
+                is_nearer |= self.take(t, id, b, 1.0);
+            } else {
+                let [a, b, c] = crossing.edges;
+                let edges = [a.lane(lane), b.lane(lane), c.lane(lane)];
+                let (t, sum) = (crossing.t.lane(lane), crossing.determinant.lane(lane));
+                is_nearer |= self.take(t, id, edges, sum);
             }
         }
         Ok(is_nearer)
     }
-}
 
-/// The lanes of the triangles that the ray hits, or may hit.
-#[inline(always)]
-fn candidate_lanes<V: Vector, S: Space>(
-    space: S,
-    test: &LeafTest<V>,
-    leaf: Leaf,
-    t_max: f32,
-) -> Mask {
-    test.candidates(space, leaf, V::splat(t_max)).map_or(0, |candidates| candidates.lanes)
+    /// Takes a hit if it is nearer. Of two at the same distance the one with the lower id counts.
+    #[inline(always)]
+    fn take(&mut self, t: f32, id: u32, edges: [f32; 3], determinant: f32) -> bool {
+        let is_nearer = t < self.t || t == self.t && id < self.id;
+        if is_nearer {
+            *self = Self { t, t_min: self.t_min, id, edges, determinant };
+        }
+        is_nearer
+    }
 }
 
 /// Whether the ray is finite, with a non-zero direction. Any other ray hits no triangle, yet would enter every box.

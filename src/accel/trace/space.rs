@@ -5,12 +5,12 @@ use glam::Vec3A;
 use super::slabs::{Slabs, padding};
 use crate::accel::tree::{Bvh, Leaf, Place};
 use crate::geometry::Ray;
-use crate::simd::{Lanes, Vector};
+use crate::simd::{Eight, Vector};
 
 /// Where a ray meets the triangles of a tree: in place, or moved. The ray is always one of the world, and its t counts there.
 pub trait Space: Copy {
     /// The ray against the boxes of nodes.
-    fn slabs<L: Lanes>(self, ray: &Ray, bvh: &Bvh) -> Slabs<L>;
+    fn slabs<B: Eight>(self, ray: &Ray, bvh: &Bvh) -> Slabs<B>;
     /// Coordinates of all vertices of a leaf along three axes.
     fn vertices<V: Vector>(self, leaf: Leaf, axes: [usize; 3]) -> [V; 3];
     /// Three corners in the order in which they are counter-clockwise from outside.
@@ -25,7 +25,7 @@ pub struct World;
 
 impl Space for World {
     #[inline(always)]
-    fn slabs<L: Lanes>(self, ray: &Ray, bvh: &Bvh) -> Slabs<L> {
+    fn slabs<B: Eight>(self, ray: &Ray, bvh: &Bvh) -> Slabs<B> {
         Slabs::new(ray, bvh.largest_coordinate)
     }
 
@@ -53,7 +53,7 @@ pub struct Elsewhere<'a>(pub &'a Place);
 
 impl Space for Elsewhere<'_> {
     #[inline(always)]
-    fn slabs<L: Lanes>(self, ray: &Ray, bvh: &Bvh) -> Slabs<L> {
+    fn slabs<B: Eight>(self, ray: &Ray, bvh: &Bvh) -> Slabs<B> {
         let Place { inverse, translation, spread, reach, .. } = self.0;
         let local = Ray { o: *inverse * (ray.o - *translation), d: *inverse * ray.d, ..*ray };
         // In units of half an epsilon, for numbers of the world up to |o| + `reach`, of which an error grows by up to `spread` on the way
@@ -61,7 +61,11 @@ impl Space for Elsewhere<'_> {
         // vertex by 4, a sheared one by 6. 19 in all, here 24.
         let world = reach + ray.o.abs().max_element();
         let moved = Vec3A::from(*spread) * (12.0 * f32::EPSILON * world);
-        Slabs::padded(&local, moved + padding(&local, bvh.largest_coordinate))
+        Slabs::padded(
+            &local,
+            bvh.largest_coordinate,
+            moved + padding(&local, bvh.largest_coordinate),
+        )
     }
 
     #[inline(always)]

@@ -3,11 +3,11 @@
 use std::cell::RefCell;
 
 use crate::accel::tree::MAX_DEPTH;
-use crate::simd::{Bits, LANES, Lanes, Mask};
+use crate::simd::{ARITY, Bits, Block, Eight, LaneMask, Mask};
 
 /// Worst case: each level leaves all children but one on the stack, and the last push writes a whole vector. Twice, since a tree
 /// is walked below those above the trees of a forest.
-const CAPACITY: usize = 2 * (LANES - 1) * MAX_DEPTH + LANES;
+const CAPACITY: usize = 2 * (ARITY - 1) * MAX_DEPTH + 2 * ARITY;
 
 /// Ids of children, and the distance at which the ray enters each. Single rays store encoded children and t; beams
 /// store indices of slots and the distance along the frustum's axis. Traversal itself counts the entries.
@@ -19,11 +19,17 @@ pub struct Stack {
 
 thread_local! {
     /// Not cleared between rays: traversal reads only what it has pushed.
-    static OF_THREAD: RefCell<Stack> =
-        const { RefCell::new(Stack { ids: [0.0; CAPACITY], distances: [0.0; CAPACITY] }) };
+    static OF_THREAD: RefCell<Stack> = const { RefCell::new(Stack::NEW) };
 }
 
 impl Stack {
+    const NEW: Self = Self { ids: [0.0; CAPACITY], distances: [0.0; CAPACITY] };
+
+    /// A stack of one's own.
+    pub fn boxed() -> Box<Self> {
+        Box::new(Self::NEW)
+    }
+
     /// Calls `f` with the stack of this thread.
     #[inline]
     pub fn with<R>(f: impl FnOnce(&mut Self) -> R) -> R {
@@ -42,52 +48,83 @@ impl Stack {
         None
     }
 
-    /// Pushes the children in the lanes of `mask`, lowest first, with the distances in those lanes. Mask and distances are
-    /// [flipped](Lanes::flip), the children are not. Returns the new length.
+    /// Pops the topmost entry above `bottom`, wherever the ray enters it.
     #[inline(always)]
-    pub fn push_children<L: Lanes>(
-        &mut self,
-        len: usize,
-        mask: Mask,
-        children: &[u32; LANES],
-        distances: L,
-        flip: u32,
-    ) -> usize {
-        self.push(
-            len,
-            mask,
-            L::load(bytemuck::cast_ref::<_, [f32; LANES]>(children)),
-            distances,
-            flip,
-        )
-    }
-
-    /// As [`Stack::push_children`], with `first + slot` in place of the child of a slot.
-    #[inline(always)]
-    pub fn push_slots<L: Lanes>(
-        &mut self,
-        len: usize,
-        mask: Mask,
-        first: u32,
-        distances: L,
-        flip: u32,
-    ) -> usize {
-        let slots: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
-        let slots = L::load(bytemuck::cast_ref::<_, [f32; LANES]>(&slots));
-        let slots = L::from_bits(slots.to_bits().wrapping_add(L::Bits::splat(first as i32)));
-        self.push(len, mask, slots, distances, flip)
-    }
-
-    #[inline(always)]
-    fn push<L: Lanes>(&mut self, len: usize, mask: Mask, ids: L, distances: L, flip: u32) -> usize {
-        if L::SKIPS_EMPTY && mask == 0 {
-            return len;
+    pub fn pop_any(&self, len: &mut usize, bottom: usize) -> Option<u32> {
+        if *len <= bottom {
+            return None;
         }
-        // Room for all lanes, of which the next push overwrites those that are unused.
-        let range = len..len + LANES;
-        let to_ids = (&mut self.ids[range.clone()]).try_into().expect("LANES entries");
-        let to_distances = (&mut self.distances[range]).try_into().expect("LANES entries");
-        L::compress([ids.flip(flip), distances], mask, flip, [to_ids, to_distances]);
+        *len -= 1;
+        Some(self.ids[*len].to_bits())
+    }
+
+    /// Pushes the children of a mask but the nearest, the second nearest last. Returns the nearest.
+    #[inline(always)]
+    pub fn push_children<B: Eight>(
+        &mut self,
+        len: &mut usize,
+        mask: B::Mask,
+        children: &[u32; ARITY],
+        distances: B,
+    ) -> u32 {
+        let nearest = self.push(len, mask, load_ids(children), distances);
+        *len -= 1;
+        children[nearest % ARITY]
+    }
+
+    /// Pushes `first + slot` for all slots of a mask, the nearest last. Returns the new length.
+    #[inline(always)]
+    pub fn push_slots<B: Eight>(
+        &mut self,
+        mut len: usize,
+        mask: B::Mask,
+        first: u32,
+        distances: B,
+    ) -> usize {
+        self.push(&mut len, mask, slots_from(first), distances);
+        len
+    }
+
+    /// As [`Stack::push_slots`], the highest slot last.
+    #[inline(always)]
+    pub fn push_any_slots<B: Eight>(
+        &mut self,
+        len: usize,
+        mask: B::Mask,
+        first: u32,
+        distances: B,
+    ) -> usize {
+        let mask = mask.bits();
+        distances.compress(mask).store(&mut self.distances[len..len + ARITY]);
+        slots_from::<B>(first).compress(mask).store(&mut self.ids[len..len + ARITY]);
         len + mask.count_ones() as usize
     }
+
+    #[inline(always)]
+    fn push<B: Eight>(&mut self, len: &mut usize, mask: B::Mask, ids: B, distances: B) -> usize {
+        let ([ids, distances], nearest) = B::largest_first(mask, ids, distances);
+        // Room for all lanes, of which the next push overwrites those that are unused.
+        ids.store(&mut self.ids[*len..*len + ARITY]);
+        distances.store(&mut self.distances[*len..*len + ARITY]);
+        *len += mask.bits().count_ones() as usize;
+        nearest
+    }
+
+    /// Pushes the children of a mask in any order, without distances. Returns the new length.
+    #[inline(always)]
+    pub fn push_any<B: Eight>(&mut self, len: usize, mask: Mask, children: &[u32; ARITY]) -> usize {
+        load_ids::<B>(children).compress(mask).store(&mut self.ids[len..len + ARITY]);
+        len + mask.count_ones() as usize
+    }
+}
+
+#[inline(always)]
+fn slots_from<B: Block>(first: u32) -> B {
+    let slots = load_ids::<B>(&[0, 1, 2, 3, 4, 5, 6, 7]);
+    B::from_bits(slots.to_bits().wrapping_add(B::Bits::splat(first as i32)))
+}
+
+#[inline(always)]
+fn load_ids<B: Block>(ids: &[u32; ARITY]) -> B {
+    B::load(bytemuck::cast_ref::<_, [f32; ARITY]>(ids))
 }

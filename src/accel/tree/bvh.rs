@@ -4,9 +4,10 @@ use super::aabb::Aabb;
 use super::leaf::Leaf;
 use super::leaves::Leaves;
 use super::node::{Child, Node};
+use crate::interaction::Hit;
 
 /// Most nodes on the way from the root to a leaf. Building keeps to it, so that traversal stacks have a fixed size.
-pub const MAX_DEPTH: usize = 16;
+pub const MAX_DEPTH: usize = 24;
 
 /// A tree over the triangles of some meshes.
 #[derive(Clone, Debug)]
@@ -49,14 +50,18 @@ impl Bvh {
         self.leaves.get(index, vertices)
     }
 
-    /// The mesh that the triangle of an id belongs to, and its index in that mesh.
+    /// Replaces the id of the triangle that was hit, if there is one, by its mesh and its index in that mesh.
     #[inline]
-    pub fn shape_and_triangle(&self, id: u32) -> (u32, u32) {
+    pub fn tell_shape(&self, hit: &mut Hit) {
+        if hit.triangle == u32::MAX {
+            return;
+        }
         let shape = match &self.first_ids[..] {
             [_] => 0,
-            first_ids => first_ids.partition_point(|&first| first <= id) - 1,
+            first_ids => first_ids.partition_point(|&first| first <= hit.triangle) - 1,
         };
-        (shape as u32, id - self.first_ids[shape])
+        hit.shape = shape as u32;
+        hit.triangle -= self.first_ids[shape];
     }
 }
 

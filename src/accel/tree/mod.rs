@@ -1,4 +1,4 @@
-//! The tree that rays are traced through: a bounding volume hierarchy with sixteen children per node.
+//! The tree that rays are traced through: a bounding volume hierarchy with eight children per node.
 //!
 //! Holds the data alone: nodes, leaves and what is known of them as a whole. Knows the vectors of `simd/`, which leaves
 //! are laid out for, and neither how trees are built (`build/`) nor how rays walk them (`trace/`).

@@ -1,21 +1,17 @@
 //! [`Node`], and the encoding of its children.
 
 use super::aabb::Aabb;
-use crate::simd::LANES;
+use crate::simd::{ARITY, LANES};
 
-/// The boxes of up to sixteen children, and references to them.
-///
-/// A child's slot tells roughly where it lies: the upper three bits of the slot are its octant of the node, x lowest,
-/// and two slots share an octant. So a ray that runs in the positive direction of all axes meets the slots about in
-/// their order. Any other ray meets slot `i ^ flip` as the i-th, where `flip` has the bits of the axes whose direction
-/// is negative.
+/// The boxes of up to eight children, and references to them: four cache lines, with what is left of the last. Sorted by
+/// surface area, the largest last: Nah and Manocha 2014, "SATO: Surface Area Traversal Order for Shadow Ray Tracing".
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct Node {
     /// The smallest x, y and z of each child's box, then the largest; +∞ and -∞ in empty slots.
-    pub planes: [[f32; LANES]; 6],
+    pub planes: [[f32; ARITY]; 6],
     /// [`Child`] of each slot, encoded.
-    pub children: [u32; LANES],
+    pub children: [u32; ARITY],
 }
 
 /// A child, which takes 32 bits in a node.
@@ -74,8 +70,8 @@ impl Child {
 impl Node {
     /// A node without children.
     pub const EMPTY: Self = {
-        let (low, high) = ([f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
-        Self { planes: [low, low, low, high, high, high], children: [Child::EMPTY; LANES] }
+        let (low, high) = ([f32::INFINITY; ARITY], [f32::NEG_INFINITY; ARITY]);
+        Self { planes: [low, low, low, high, high, high], children: [Child::EMPTY; ARITY] }
     };
 
     /// Puts a child into a slot.
@@ -101,7 +97,7 @@ impl Node {
             let child = self.children[*slot];
             child != Child::EMPTY && child & LEAF != 0
         };
-        (0..LANES).filter(is_leaf).map(|slot| {
+        (0..ARITY).filter(is_leaf).map(|slot| {
             let [x, y, z] =
                 [0, 1, 2].map(|axis| self.planes[axis + 3][slot] - self.planes[axis][slot]);
             x * y + y * z + z * x
