@@ -68,9 +68,10 @@ impl LoadedScene {
     }
 
     /// The text of a scene file with all values, those of overrides among them. Its paths are those of the file, which are relative to the
-    /// folder of the file, and those of overrides and of the scene of an OBJ file, which are relative to the current directory.
+    /// folder of the file, and those of overrides and of the scene of an OBJ file, which are relative to the current directory. Comments at
+    /// its end name the materials of MTL files that faces have, as tables that would replace them.
     pub fn to_toml(&self) -> String {
-        write::toml(&self.document.root)
+        write::toml(&self.document.root) + &write::replaceable(&self.faces.unclaimed)
     }
 
     /// What is rendered, as lines `key = value`: the version of this crate, all values of the file and the overrides, and

@@ -124,7 +124,18 @@ direction = [0.55, -0.75, -0.65]
 irradiance = [1.5, 1.5, 1.5]
 
 [shape.model]
-obj = "model.obj""#
+obj = "model.obj"
+
+# Faces have these materials, of MTL files. To replace one, take away the # of its table:
+#
+# [material.red]
+# type = "matte"
+#
+# [material.blue]
+# type = "matte"
+#
+# [material.wood]
+# type = "matte""#
     );
     folder.write("own.toml", &scene);
     folder.prints(&format!("render own.toml -o own.exr {SMALL}"));
@@ -182,7 +193,7 @@ fn models_that_cannot_be_rendered() {
     folder.fails("render no.glb", "no.glb: there is no such file");
     folder.fails(
         "render model.obj --set shape.wall.scale=2",
-        "--set shape.wall.scale=2: the scene has no shape `wall`; expected `model`",
+        "--set shape.wall.scale=2: the scene has no shape `wall`; expected `model`; --set cannot add one: write it into the scene file",
     );
     // Without its MTL file it is grey.
     fs::remove_file(folder.0.join("model.mtl")).unwrap();
