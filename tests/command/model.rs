@@ -191,6 +191,9 @@ fn models_that_cannot_be_rendered() {
     folder.fails("render model.glb", "model.glb: expected a scene file, .toml, or a model, .obj");
     folder.fails("check model.glb", "model.glb: expected a scene file, .toml, or a model, .obj");
     folder.fails("render no.glb", "no.glb: there is no such file");
+    for arguments in ["render wood.png", "info wood.png --scene"] {
+        folder.fails(arguments, "wood.png: expected a scene file, .toml, or a model, .obj");
+    }
     folder.fails(
         "render model.obj --set shape.wall.scale=2",
         "--set shape.wall.scale=2: the scene has no shape `wall`; expected `model`; --set cannot add one: write it into the scene file",
