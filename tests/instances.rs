@@ -133,8 +133,8 @@ fn hits_tell_shape_and_instance() {
     let at = |x: f32| Affine3A::from_translation(Vec3::X * x);
     let scene = builder()
         .shape("ball", ball(6), "grey")
-        .instance("floor 2", "floor", at(100.0))
         .instance("ball 2", "ball", at(10.0))
+        .instance("floor 2", "floor", at(100.0))
         .build()
         .unwrap();
     let shapes: Vec<_> = scene.shapes().map(|(name, _)| name).collect();

@@ -180,7 +180,7 @@ fn help_teaches_by_examples() {
     assert!(folder.prints("--version").starts_with("lobe 0."));
 }
 
-/// The tables of the registries. Seen to fail with a key's meaning changed.
+/// The tables of the registries. Seen to fail with a key's meaning changed. Caught: kinds without a hint.
 #[test]
 fn help_lists_what_scene_files_can_hold() {
     let folder = Folder::new("topics");

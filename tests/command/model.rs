@@ -176,6 +176,7 @@ fn files_of_a_model_are_kept() {
     folder.fails("render wood.obj", "cannot write `wood.png`: it is read; give another name");
 }
 
+/// Caught: scene files of any ending.
 #[test]
 fn models_that_cannot_be_rendered() {
     let folder = folder("model-refused");
