@@ -182,10 +182,12 @@ fn pfm_of_other_programs() {
     assert_eq!(image.pixels, [3.0, 4.0, 1.0, 2.0].map(Spectrum::splat));
 }
 
-/// Caught: a product of the sides that leaves 64 bits; a side of 0; any magic word; colours not looked for.
+/// A size was read from JPEG and GIF files that were named .png: 15353553688432 MiB. Caught: a product of the sides that leaves 64
+/// bits; a side of 0; any magic word; colours not looked for; files of other formats handed to the decoders.
 #[test]
 fn what_is_no_image_is_refused() {
-    let cases: [(&str, &[u8], &str); 12] = [
+    const JFIF: &[u8] = b"\xFF\xD8\xFF\xE0\0\x10JFIF";
+    let cases: [(&str, &[u8], &str); 22] = [
         ("bad.pfm", b"P6\n2 2\n255\n", "it is not a PFM file: it begins with `P6`, not PF or Pf"),
         ("bad.pfm", b"PF\n2 ", "it ends within its header"),
         (
@@ -200,11 +202,37 @@ fn what_is_no_image_is_refused() {
             b"PF\n2147483647 2147483647\n-1\n",
             "2147483647 x 2147483647 pixels need 55340232169589047308 bytes, not 0",
         ),
-        ("bad.png", b"PF\n", "it is not a PNG file: "),
-        ("bad.jpg", b"PF\n", "it is not a JPEG file: "),
-        ("bad.jpeg", b"", "it is not a JPEG file: "),
-        ("bad.jpg", b"\xFF\xD8\xFF\xE0\0\x10JFIF", "it is not a JPEG file: "),
-        ("bad.exr", b"PF\n", "it is not a readable EXR file: "),
+        ("bad.png", b"PF\n", "it is not a PNG file, but a PFM file: name it .pfm"),
+        ("bad.png", JFIF, "it is not a PNG file, but a JPEG file: name it .jpg"),
+        ("bad.png", b"v/1\x01\x02\0\0\0", "it is not a PNG file, but an EXR file: name it .exr"),
+        (
+            "bad.png",
+            b"GIF89a and more than 24 bytes",
+            "it is not a PNG file, but a GIF file: save it as PNG",
+        ),
+        (
+            "bad.png",
+            b"RIFF\x1A\0\0\0WEBPVP8 ",
+            "it is not a PNG file, but a WebP file: save it as PNG",
+        ),
+        (
+            "bad.png",
+            b"RIFF\x1A\0\0\0WAVEfmt ",
+            "it is not a PNG file: it begins with `RIFF\\x1a\\x00\\x00\\x00`",
+        ),
+        ("bad.png", b"<!DOCTYPE html>", "it is not a PNG file: it begins with `<!DOCTYP`"),
+        ("bad.png", b"\x89PNG", "it is not a PNG file: "),
+        ("bad.png", b"\x89PNG\r\n\x1A\n and no header chunk", "it is not a PNG file: "),
+        ("bad.jpg", b"PF\n", "it is not a JPEG file, but a PFM file: name it .pfm"),
+        ("bad.jpeg", b"", "it is not a JPEG file: it is empty"),
+        ("bad.jpg", JFIF, "it is not a JPEG file: "),
+        ("bad.exr", b"II*\0", "it is not an EXR file, but a TIFF file: save it as PNG or EXR"),
+        ("bad.exr", b"v/1\x01", "it is not a readable EXR file: "),
+        (
+            "bad.pfm",
+            b"#?RADIANCE\n",
+            "it is not a PFM file, but a Radiance HDR file: save it as EXR",
+        ),
         ("bad.tif", b"", "its name has to end in .exr, .jpg, .jpeg, .pfm or .png"),
     ];
     for (name, contents, reason) in cases {

@@ -2,6 +2,7 @@
 
 mod scenes;
 
+use lobe::geometry::Ray;
 use lobe::glam::{Affine3A, Quat, UVec2, Vec2, Vec3};
 use lobe::integrator::PathIntegrator;
 use lobe::light::SkyLight;
@@ -123,6 +124,33 @@ fn lamps_and_flat_instances_are_copied() {
     let names: Vec<_> = scene.shapes().map(|(name, _)| name).collect();
     assert_eq!(names, ["floor", "ball", "lamp", "lamp 2", "shadow"]);
     assert_eq!(scene.instances().collect::<Vec<_>>(), [("ball 2", "ball")]);
+    assert_eq!(scene.copies().collect::<Vec<_>>(), [("lamp 2", "lamp"), ("shadow", "ball")]);
+}
+
+/// A hit tells its shape, and the instance if it is on one. Caught: an instance that is taken for the shape of its own index.
+#[test]
+fn hits_tell_shape_and_instance() {
+    let at = |x: f32| Affine3A::from_translation(Vec3::X * x);
+    let scene = builder()
+        .shape("ball", ball(6), "grey")
+        .instance("ball 2", "ball", at(10.0))
+        .instance("floor 2", "floor", at(100.0))
+        .build()
+        .unwrap();
+    let shapes: Vec<_> = scene.shapes().map(|(name, _)| name).collect();
+    let instances: Vec<_> = scene.instances().map(|(name, _)| name).collect();
+    for (x, shape, instance) in
+        [(0.0, "ball", None), (10.0, "ball", Some("ball 2")), (100.0, "floor", Some("floor 2"))]
+    {
+        let ray = Ray::new(Vec3::new(x, 9.0, 0.1), -Vec3::Y);
+        let hit = scene.accel().intersect1(&ray);
+        let place = scene.interaction(&ray, &hit).place().unwrap();
+        let found = scene.shape_of(place.shape).unwrap();
+        assert_eq!((shapes[found.shape], found.instance.map(|i| instances[i])), (shape, instance));
+        assert_eq!(scene.shape_of(hit.shape), Some(found));
+    }
+    assert_eq!(scene.shape_of(lobe::accel::Hit::MISS.shape), None);
+    assert_eq!(scene.shape_of(4), None);
 }
 
 /// What cannot be an instance.

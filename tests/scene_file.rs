@@ -389,7 +389,7 @@ fn missing_keys() {
         ),
         (
             "[shape.s]\ntype = \"rectangle\"\ncorner = [0, 0, 0]\nedges = [[1, 0, 0], [0, 1, 0]]",
-            "s.toml:1:1: [shape.s] lacks `material`, expected a text in quotes",
+            "s.toml:1:1: [shape.s] lacks `material`, expected the name of a material, or `emission`, or an OBJ file whose faces name materials",
         ),
         // Its faces may name materials.
         ("[shape.s]\nobj = \"a.obj\"", "s.toml:2:7: a.obj: there is no such file"),
@@ -556,8 +556,8 @@ fn values_out_of_range() {
             "s.toml:3:12: the scene has no texture `glow`",
         ),
         (
-            "[texture.t]\ntype = \"checkerboard\"\nfirst = 0\nsecond = 1\n[shape.s]\nemission = \"t\"",
-            "s.toml:6:12: `shape.s.emission` is the texture \"t\", of numbers, expected [red, green, blue], each a finite number of at least 0",
+            "[texture.t]\ntype = \"constant\"\nvalue = -1\n[shape.s]\nemission = \"t\"",
+            "s.toml:5:12: `shape.s.emission` is the texture \"t\", -1, expected [red, green, blue], each a finite number of at least 0",
         ),
         (
             "[texture.t]\ntype = \"constant\"\nvalue = [1, -1, 1]\n[shape.s]\nemission = \"t\"",
@@ -787,7 +787,7 @@ fn bad_overrides() {
     }
     assert_eq!(
         refused("", &["shape.s.scale=2"]),
-        "--set shape.s.scale=2: the scene has no shape `s`"
+        "--set shape.s.scale=2: the scene has no shape `s`; --set cannot add one: write it into the scene file"
     );
 }
 
@@ -1005,4 +1005,16 @@ fn wrong_lights() {
     let text = environment("text.png", "");
     let start = format!("s.toml:3:8: cannot read `{}`: ", path("text.png"));
     assert!(refused(&text, &[]).starts_with(&start), "{}", refused(&text, &[]));
+}
+
+/// The scene of the README is one. Caught: a key of another table.
+#[test]
+fn the_scene_of_the_readme_is_read() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
+    let (_, rest) = readme.split_once("```toml\n").unwrap();
+    let (text, _) = rest.split_once("```").unwrap();
+    let loaded = parse_scene(&root.join("scene.toml"), text, &[]).unwrap();
+    assert_eq!(loaded.scene.instances().collect::<Vec<_>>(), [("twin", "dragon")]);
+    assert_eq!(loaded.materials().count(), 2);
 }

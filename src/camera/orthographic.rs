@@ -7,11 +7,11 @@ use glam::{UVec2, Vec2, Vec3};
 use super::block::{CameraSamples, WideCamera, ray_of_one, rays_wide};
 use super::error::CameraError;
 use super::placement::{
-    Axes, EYE, FOCAL_DISTANCE, HANDEDNESS, LENS_RADIUS, LOOK_AT, MAX_COORDINATE_F64, UP,
-    check_lens, check_resolution, fault, point_on_lens,
+    Axes, EYE, FOCAL_DISTANCE, HANDEDNESS, LENS_RADIUS, LOOK_AT, UP, check_lens, check_resolution,
+    fault, point_on_lens,
 };
 use super::traits::{Camera, Read};
-use crate::geometry::float::MAX_COORDINATE;
+use crate::geometry::float::{MAX_COORDINATE, MAX_COORDINATE_F64};
 use crate::geometry::{PixelCone, Ray, Xyz};
 use crate::params::{Fault, Handedness, Key, Kind, Table};
 use crate::simd::{Float, four};

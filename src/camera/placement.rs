@@ -4,14 +4,10 @@ use glam::{DVec3, UVec2, Vec3};
 
 use super::error::CameraError;
 use crate::geometry::Xyz;
-use crate::geometry::float::MAX_COORDINATE;
+use crate::geometry::float::MAX_COORDINATE_F64;
 use crate::params::{Fault, Handedness, Key, Table};
 use crate::sampling::concentric_disk;
 use crate::simd::Float;
-
-/// [`MAX_COORDINATE`] as the decimal that it was rounded from.
-pub(super) const MAX_COORDINATE_F64: f64 = 1e12;
-const _: () = assert!(MAX_COORDINATE_F64 as f32 == MAX_COORDINATE);
 
 pub(super) const EYE: Key<Vec3> = Key::new("eye", "where it stands")
     .range(-MAX_COORDINATE_F64..=MAX_COORDINATE_F64)

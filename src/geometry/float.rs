@@ -12,6 +12,10 @@ pub const ONE_MINUS_EPSILON: f32 = 1.0 - UNIT_ROUNDOFF;
 /// f32. For lengths below about 1e-12 it underflows to zero.
 pub const MAX_COORDINATE: f32 = 1e12;
 
+/// [`MAX_COORDINATE`] as the decimal that it was rounded from, for ranges of keys.
+pub const MAX_COORDINATE_F64: f64 = 1e12;
+const _: () = assert!(MAX_COORDINATE_F64 as f32 == MAX_COORDINATE);
+
 /// The bound γₙ = n u / (1 - n u) on the relative error that `n` rounded operations in a row
 /// accumulate, with u = [`UNIT_ROUNDOFF`].
 ///

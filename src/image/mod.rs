@@ -60,6 +60,7 @@ mod pfm;
 mod picture;
 mod png;
 mod read;
+mod signature;
 mod window;
 
 pub use atomic::{

@@ -139,7 +139,7 @@ fn open<R: BufRead + Seek>(mut source: R, limit: u64) -> Result<PngDecoder<R>, R
     // height after it: they are asked whether the limit allows them before the decoder is allowed anything for them.
     let mut head = [0; 24];
     let (mut width, mut height) = (0, 0);
-    if source.read_exact(&mut head).is_ok() {
+    if source.read_exact(&mut head).is_ok() && head[12..16] == *b"IHDR" {
         let side =
             |at: usize| u32::from_be_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]);
         (width, height) = (side(16), side(20));

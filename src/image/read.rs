@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use glam::UVec2;
 
 use super::memory::{Refusal, mebibytes};
-use super::{Encoding, Image, ReadError, jpeg, pfm, png};
+use super::{Encoding, Image, ReadError, jpeg, pfm, png, signature};
 #[cfg(feature = "exr")]
 use super::{Metadata, Picture};
 #[cfg(feature = "exr")]
@@ -206,8 +206,25 @@ impl Format {
         }
     }
 
+    /// With its article.
+    const fn name(self) -> &'static str {
+        match self {
+            #[cfg(feature = "exr")]
+            Self::Exr => "an EXR",
+            Self::Jpeg => "a JPEG",
+            Self::Pfm => "a PFM",
+            Self::Png => "a PNG",
+        }
+    }
+
     /// Columns and rows of an image that would stay within the limit, by its header.
-    fn size(self, source: impl BufRead + Seek, length: u64, limit: u64) -> Result<UVec2, Refusal> {
+    fn size(
+        self,
+        mut source: impl BufRead + Seek,
+        length: u64,
+        limit: u64,
+    ) -> Result<UVec2, Refusal> {
+        signature::check(&mut source, self.name())?;
         match self {
             #[cfg(feature = "exr")]
             Self::Exr => exr_read::size(source, length, limit),
@@ -219,10 +236,11 @@ impl Format {
 
     fn decode(
         self,
-        source: impl BufRead + Seek,
+        mut source: impl BufRead + Seek,
         length: u64,
         limit: u64,
     ) -> Result<Image, Refusal> {
+        signature::check(&mut source, self.name())?;
         match self {
             #[cfg(feature = "exr")]
             Self::Exr => exr_read::decode(source, length, limit),

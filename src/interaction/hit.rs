@@ -10,7 +10,8 @@ pub struct Hit {
     pub t: f32,
     /// Barycentric coordinates: the weight of each corner of the triangle.
     pub b: [f32; 3],
-    /// Index of the mesh, among those that the tree was built from.
+    /// Index of the mesh, among those that the tree was built from; on an instance its index behind all meshes.
+    /// [`Scene::shape_of`](crate::Scene::shape_of) tells both.
     pub shape: u32,
     /// Index of the triangle in that mesh.
     pub triangle: u32,

@@ -68,7 +68,8 @@ pub struct SurfaceInteraction<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SurfacePlace {
-    /// Index of the shape, in the order in which shapes were added to the scene.
+    /// Index of the shape, in the order in which shapes were added to the scene; on an instance its index behind all shapes.
+    /// [`Scene::shape_of`](crate::Scene::shape_of) tells both.
     pub shape: u32,
     /// Index of the triangle in the shape's mesh.
     pub triangle: u32,

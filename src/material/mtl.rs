@@ -26,7 +26,7 @@ use super::{
 use crate::file;
 use crate::image::ReadError;
 use crate::interaction::SurfaceInteraction;
-use crate::shape::{MtlMap, MtlMaterial};
+use crate::shape::{MtlMap, MtlMaterial, MtlNote};
 use crate::spectrum::Spectrum;
 use crate::texture::{
     Channel, Curve, ImageTexture, Mapping, ProductTexture, Texture, TextureHandle, Textures, Wrap,
@@ -40,28 +40,25 @@ pub struct MtlMaterials<'a> {
     pub textures: &'a Textures,
 }
 
-/// What could not be used of a material, in a phrase.
-pub type Note = String;
-
 impl MtlMaterials<'_> {
     /// The material, and what was left out of it.
-    pub fn make(&self, mtl: &MtlMaterial) -> (Arc<dyn Material>, Vec<Note>) {
+    pub fn make(&self, mtl: &MtlMaterial) -> (Arc<dyn Material>, Vec<MtlNote>) {
         let mut notes = Vec::new();
         let has_glass = matches!(mtl.illum, Some(4 | 6 | 7 | 9));
         let ks = Spectrum::from(mtl.ks.unwrap_or_default());
         let eta = mtl.ni.filter(|ni| *ni > 1.0 && *ni <= 10.0).unwrap_or(1.5);
         let filter = Spectrum::from(mtl.tf.unwrap_or([1.0; 3]));
         // Without a map of it, metal is all or nothing.
-        let metal = match self.number(mtl.pm, mtl.map_pm.as_ref(), &mut notes) {
+        let metal = match self.number(mtl.pm, named("map_Pm", &mtl.map_pm), &mut notes) {
             Some(TextureHandle::Constant(pm)) => (pm > 0.5).then_some(TextureHandle::Constant(1.0)),
             map => map,
         };
         let is_metal = metal.as_ref().is_some_and(|metal| metal.constant().is_some());
-        if mtl.map_kd.is_some() && has_glass && !is_metal {
-            notes.push("map_Kd of glass is not used".into());
+        if let Some(MtlMap { line, .. }) = mtl.map_kd.as_ref().filter(|_| has_glass && !is_metal) {
+            notes.push(MtlNote { line: *line, what: "map_Kd of glass is not used".into() });
         }
         // Glass has no place for it.
-        let map = mtl.map_kd.as_ref().filter(|_| !has_glass || is_metal);
+        let map = named("map_Kd", &mtl.map_kd).filter(|_| !has_glass || is_metal);
         let without = Spectrum::splat(if is_metal { 1.0 } else { 0.5 });
         let kd = self.color(mtl.kd, without, map, &mut notes);
         let rough = self.roughness(mtl, &mut notes);
@@ -104,11 +101,12 @@ impl MtlMaterials<'_> {
         &self,
         material: Arc<dyn Material>,
         mtl: &MtlMaterial,
-        notes: &mut Vec<Note>,
+        notes: &mut Vec<MtlNote>,
     ) -> Arc<dyn Material> {
-        let normals = mtl.norm.as_ref().and_then(|map| self.found(map, Curve::Linear, notes));
-        let bump = mtl.map_bump.as_ref().and_then(|map| self.numbers(map, notes));
-        let opacity = mtl.map_d.as_ref().and_then(|map| self.numbers(map, notes));
+        let normals =
+            named("norm", &mtl.norm).and_then(|map| self.found(map, Curve::Linear, notes));
+        let bump = named("map_Bump", &mtl.map_bump).and_then(|map| self.numbers(map, notes));
+        let opacity = named("map_d", &mtl.map_d).and_then(|map| self.numbers(map, notes));
         if normals.is_none() && bump.is_none() && opacity.is_none() {
             return material;
         }
@@ -126,16 +124,17 @@ impl MtlMaterials<'_> {
     }
 
     /// The emitted radiance: `Ke` times `map_Ke`, and what was left out of it. Black is a constant.
-    pub fn emission(&self, mtl: &MtlMaterial) -> (TextureHandle<Spectrum>, Vec<Note>) {
+    pub fn emission(&self, mtl: &MtlMaterial) -> (TextureHandle<Spectrum>, Vec<MtlNote>) {
         let mut notes = Vec::new();
         let ke = mtl.ke.map(Spectrum::from);
         let alone = ke.unwrap_or_default();
         let Some(map) = &mtl.map_ke else { return (alone.into_handle(), notes) };
         if ke == Some(Spectrum::BLACK) {
-            notes.push("map_Ke times a black Ke emits nothing".into());
+            let what = "map_Ke times a black Ke emits nothing".into();
+            notes.push(MtlNote { line: map.line, what });
             return (alone.into_handle(), notes);
         }
-        let emission = match self.found(map, Curve::Srgb, &mut notes) {
+        let emission = match self.found(("map_Ke", map), Curve::Srgb, &mut notes) {
             None => alone.into_handle(),
             Some(image) if image.is_black() && map.base_gain[0] <= 0.0 => {
                 Spectrum::BLACK.into_handle()
@@ -145,8 +144,8 @@ impl MtlMaterials<'_> {
         (emission, notes)
     }
 
-    fn roughness(&self, mtl: &MtlMaterial, notes: &mut Vec<Note>) -> Roughness {
-        match (self.number(mtl.pr, mtl.map_pr.as_ref(), notes), mtl.ns) {
+    fn roughness(&self, mtl: &MtlMaterial, notes: &mut Vec<MtlNote>) -> Roughness {
+        match (self.number(mtl.pr, named("map_Pr", &mtl.map_pr), notes), mtl.ns) {
             (Some(pr), _) => Roughness::perceptual(pr),
             (None, Some(ns)) => Roughness::alpha((2.0 / (ns.max(0.0) + 2.0)).sqrt()),
             (None, None) => Roughness::smooth(),
@@ -157,8 +156,8 @@ impl MtlMaterials<'_> {
     fn number(
         &self,
         number: Option<f32>,
-        map: Option<&MtlMap>,
-        notes: &mut Vec<Note>,
+        map: Option<Map>,
+        notes: &mut Vec<MtlNote>,
     ) -> Option<TextureHandle<f32>> {
         let image = map.and_then(|map| self.numbers(map, notes));
         match (image, number.filter(|number| *number != 0.0 && *number != 1.0)) {
@@ -169,14 +168,14 @@ impl MtlMaterials<'_> {
     }
 
     /// An image of numbers. Without a channel it is the luminance.
-    fn numbers(&self, map: &MtlMap, notes: &mut Vec<Note>) -> Option<TextureHandle<f32>> {
+    fn numbers(&self, (key, map): Map, notes: &mut Vec<MtlNote>) -> Option<TextureHandle<f32>> {
         let channel = match map.channel {
             Some('r') => Channel::Red,
             Some('g') => Channel::Green,
             Some('b') => Channel::Blue,
             _ => Channel::Luminance,
         };
-        let numbers = self.found(map, Curve::Linear, notes)?.channel(channel);
+        let numbers = self.found((key, map), Curve::Linear, notes)?.channel(channel);
         let [base, gain] = map.base_gain;
         Some(if [base, gain] == [0.0, 1.0] {
             numbers.into_handle()
@@ -185,9 +184,15 @@ impl MtlMaterials<'_> {
         })
     }
 
-    /// The image, or a note.
-    fn found(&self, map: &MtlMap, curve: Curve, notes: &mut Vec<Note>) -> Option<ImageTexture> {
-        self.image(map, curve).map_err(|error| notes.push(error.to_string())).ok()
+    /// The image of a key, or a note.
+    fn found(
+        &self,
+        (key, map): Map,
+        curve: Curve,
+        notes: &mut Vec<MtlNote>,
+    ) -> Option<ImageTexture> {
+        let note = |error| MtlNote { line: map.line, what: format!("{key}: {error}") };
+        self.image(map, curve).map_err(|error| notes.push(note(error))).ok()
     }
 
     /// A colour, an image, or their product.
@@ -195,13 +200,13 @@ impl MtlMaterials<'_> {
         &self,
         color: Option<[f32; 3]>,
         without: Spectrum,
-        map: Option<&MtlMap>,
-        notes: &mut Vec<Note>,
+        map: Option<Map>,
+        notes: &mut Vec<MtlNote>,
     ) -> TextureHandle<Spectrum> {
         let given = color.map(Spectrum::from);
         let color = given.unwrap_or(without);
-        let Some(map) = map else { return color.into_handle() };
-        match self.found(map, Curve::Srgb, notes) {
+        let Some((key, map)) = map else { return color.into_handle() };
+        match self.found((key, map), Curve::Srgb, notes) {
             None => color.into_handle(),
             Some(image) => {
                 scaled(with_base_and_gain(image, map), given.filter(|color| !color.is_black()))
@@ -220,6 +225,13 @@ impl MtlMaterials<'_> {
         let image = image.with_mapping(mapping);
         Ok(if map.is_clamped { image.with_wrap(Wrap::Clamp) } else { image })
     }
+}
+
+/// A map with its key.
+type Map<'m> = (&'static str, &'m MtlMap);
+
+fn named<'m>(key: &'static str, map: &'m Option<MtlMap>) -> Option<Map<'m>> {
+    map.as_ref().map(|map| (key, map))
 }
 
 /// Colours of an image after `-mm`.

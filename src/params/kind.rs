@@ -63,7 +63,7 @@ impl<R> Section<R> {
         let named = |name: &str| self.kinds.iter().find(|kind| kind.name == name);
         let Some(node) = table.node().get(self.selector) else {
             let default = self.default.and_then(named);
-            return default.ok_or_else(|| table.lacks(self.selector, names()));
+            return default.ok_or_else(|| table.without(self.selector, names()));
         };
         let kind = if let Value::Text(name) = &node.value { named(name) } else { None };
         kind.ok_or_else(|| table.wrong(self.selector, node, node.value.to_string(), names()))

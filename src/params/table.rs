@@ -181,7 +181,12 @@ impl<'a> Table<'a> {
 
     /// The error that a required key is missing.
     pub fn missing(&self, key: &dyn AnyKey) -> Fault {
-        self.lacks(key.name(), key.expected())
+        self.lacks(key, key.expected())
+    }
+
+    /// The error that a key is missing that others may stand for: what is `expected` names them.
+    pub fn lacks(&self, key: &dyn AnyKey, expected: impl Into<String>) -> Fault {
+        self.without(key.name(), expected.into())
     }
 
     /// The error that the value of a key, `found` at `node`, is invalid.
@@ -193,7 +198,7 @@ impl<'a> Table<'a> {
         self.node
     }
 
-    pub(super) fn lacks(&self, key: &'static str, expected: String) -> Fault {
+    pub(super) fn without(&self, key: &'static str, expected: String) -> Fault {
         let problem = Problem::MissingKey { table: self.title.clone(), key, expected };
         Fault { mark: self.node.mark, problem }
     }

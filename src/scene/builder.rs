@@ -63,7 +63,7 @@ impl SceneBuilder {
         of_triangles: Vec<u32>,
     ) -> Self {
         let (name, material) = (name.into(), NewMaterial::ByTriangle(materials, of_triangles));
-        self.shapes.push(NewShape { name, mesh, material, emission: None });
+        self.shapes.push(NewShape { name, mesh, material, emission: None, copy_of: None });
         self
     }
 
@@ -99,7 +99,7 @@ impl SceneBuilder {
             NewEmission::Own(Emission { radiance: radiance.into_handle(), two_sided })
         });
         let material = NewMaterial::Everywhere(material);
-        self.shapes.push(NewShape { name, mesh, material, emission });
+        self.shapes.push(NewShape { name, mesh, material, emission, copy_of: None });
         self
     }
 
@@ -116,7 +116,7 @@ impl SceneBuilder {
     ) -> Self {
         let (name, material) = (name.into(), NewMaterial::Everywhere(material.map(str::to_owned)));
         let emission = Some(NewEmission::Light(light.into_arc()));
-        self.shapes.push(NewShape { name, mesh, material, emission });
+        self.shapes.push(NewShape { name, mesh, material, emission, copy_of: None });
         self
     }
 
@@ -158,7 +158,7 @@ impl SceneBuilder {
         let mut meshes = Vec::with_capacity(self.shapes.len());
         let mut lights = self.lights;
         let mut known = Known { all: self.materials, used: Vec::new(), indices: BTreeMap::new() };
-        for NewShape { name, mesh, material, emission } in self.shapes {
+        for NewShape { name, mesh, material, emission, copy_of } in self.shapes {
             if let Some(NewEmission::Own(Emission { radiance, .. })) = &emission
                 && let Some(radiance) = radiance.constant().filter(|radiance| !radiance.is_valid())
             {
@@ -170,7 +170,7 @@ impl SceneBuilder {
                 lights.push(light);
                 lights.len() - 1
             });
-            shapes.push(Shape { name, material, materials, light });
+            shapes.push(Shape { name, material, materials, light, copy_of });
             meshes.push(mesh);
         }
         let triangles = meshes.iter().map(|mesh| mesh.indices.len()).sum();

@@ -54,7 +54,7 @@ pub(super) fn instances(
                 if let Some(NewEmission::Light(_)) = original.emission {
                     return Err(wrong("its shape has a light of its own kind".to_owned()));
                 }
-                let mut copy = NewShape { name, ..original.clone() };
+                let mut copy = NewShape { name, copy_of: Some(index), ..original.clone() };
                 copy.mesh.transform(&transform);
                 shapes.push(copy);
             }

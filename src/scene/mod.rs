@@ -14,6 +14,6 @@ mod view;
 
 pub use builder::SceneBuilder;
 pub use error::SceneError;
-pub use model::Scene;
+pub use model::{Scene, ShapeOf};
 pub use settings::{Emission, FilmSettings};
 pub use view::{View, ViewError};

@@ -53,6 +53,18 @@ pub(super) struct Shape {
     pub materials: Vec<u32>,
     /// Index of its area light, if it emits.
     pub light: Option<usize>,
+    /// Index of the shape that it is a copy of, in place of an instance.
+    pub copy_of: Option<usize>,
+}
+
+/// What the surface of a hit belongs to: see [`Scene::shape_of`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct ShapeOf {
+    /// Index of the shape among [`Scene::shapes`].
+    pub shape: usize,
+    /// Index of the instance among [`Scene::instances`], if it is not the shape itself that was hit.
+    pub instance: Option<usize>,
 }
 
 impl Scene {
@@ -76,6 +88,24 @@ impl Scene {
     pub fn instances(&self) -> impl Iterator<Item = (&str, &str)> {
         let shapes = self.surfaces.instances().iter().map(|i| &self.shapes[i.mesh as usize]);
         self.instance_names.iter().map(String::as_str).zip(shapes.map(|s| s.name.as_str()))
+    }
+
+    /// Name of each shape that is a copy because it could not be an instance, and that of the shape it was copied from. They are the last of
+    /// [`shapes`](Self::shapes).
+    pub fn copies(&self) -> impl Iterator<Item = (&str, &str)> {
+        let of = |shape: &Shape| shape.copy_of.map(|of| &*self.shapes[of].name);
+        self.shapes.iter().filter_map(move |shape| Some((&*shape.name, of(shape)?)))
+    }
+
+    /// Shape and instance for the index that a hit has, [`Hit::shape`] or [`SurfacePlace::shape`]: shapes come first, then instances.
+    /// `None` for a miss, and for indices beyond these.
+    pub fn shape_of(&self, index: u32) -> Option<ShapeOf> {
+        let index = index as usize;
+        let Some(instance) = index.checked_sub(self.shapes.len()) else {
+            return Some(ShapeOf { shape: index, instance: None });
+        };
+        let shape = self.surfaces.instances().get(instance)?.mesh as usize;
+        Some(ShapeOf { shape, instance: Some(instance) })
     }
 
     #[inline]

@@ -22,6 +22,8 @@ pub(super) struct NewShape {
     pub mesh: TriangleMesh,
     pub material: NewMaterial,
     pub emission: Option<NewEmission>,
+    /// Index of the shape that an instance would have shown, if it is a copy.
+    pub copy_of: Option<usize>,
 }
 
 /// What a shape is made of, before `build`.

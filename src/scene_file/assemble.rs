@@ -39,6 +39,10 @@ struct NewInstance {
     transform: Affine3A,
 }
 
+/// What a shape without a material is told.
+const MATERIAL_OR: &str =
+    "the name of a material, or `emission`, or an OBJ file whose faces name materials";
+
 struct Shape {
     load: Load,
     /// Name of the material and position of that name.
@@ -130,7 +134,7 @@ fn shape(table: Table, textures: &Textures) -> Result<Shape, Fault> {
         let load = (kind.read)(table)?;
         let material = table.get(&sections::SHAPE_MATERIAL)?;
         let is_missing = material.is_none() && emission.is_none();
-        let missing = is_missing.then(|| table.missing(&sections::SHAPE_MATERIAL));
+        let missing = is_missing.then(|| table.lacks(&sections::SHAPE_MATERIAL, MATERIAL_OR));
         let mark = table.mark(&sections::SHAPE_MATERIAL);
         Ok(Shape {
             load,
@@ -251,7 +255,8 @@ pub fn build(
     let mut reports = Vec::with_capacity(shapes.len());
     // Of shapes that became several.
     let mut parts = BTreeMap::new();
-    let mut faces = FaceMaterials::new(&by_name, &textures);
+    let names = shapes.iter().map(|(name, _)| name.clone()).collect();
+    let mut faces = FaceMaterials::new(&by_name, &textures, names);
     for (name, Shape { load, material, missing, emission, two_sided, transform }) in shapes {
         let ObjMesh { mut mesh, report, materials } = load()?;
         reports.push(report);

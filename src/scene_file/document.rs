@@ -42,8 +42,9 @@ impl<'a> Source<'a> {
             }
             Origin::Tree(tree) => (tree.clone(), PathBuf::new()),
         };
+        let of_model = matches!(self.origin, Origin::Tree(_));
         for (i, text) in self.overrides.iter().enumerate() {
-            self.place(overrides::apply(&mut root, text, i + 1))?;
+            self.place(overrides::apply(&mut root, text, i + 1, of_model))?;
         }
         Ok(Document::in_folders(root, vec![folder]))
     }

@@ -20,6 +20,8 @@ pub struct FaceMaterials<'a> {
     textures: &'a Textures,
     /// Names that the builder has materials for.
     taken: BTreeSet<String>,
+    /// Names of the shapes of the scene file, and of the parts of these that became shapes.
+    shapes: BTreeSet<String>,
     pub found: Found,
 }
 
@@ -34,6 +36,8 @@ pub struct Found {
     pub files: Vec<PathBuf>,
     /// The materials that were made for faces.
     pub materials: Vec<(String, Arc<dyn Material>)>,
+    /// Names that faces have and the scene file does not, each once.
+    pub unclaimed: Vec<String>,
     /// How many triangles have which.
     pub counts: Vec<FaceMaterial>,
 }
@@ -49,9 +53,14 @@ struct Made {
 }
 
 impl<'a> FaceMaterials<'a> {
-    pub fn new(known: &'a BTreeMap<String, Arc<dyn Material>>, textures: &'a Textures) -> Self {
+    /// `shapes` are the names of all shapes of the scene file, which those of parts differ from.
+    pub fn new(
+        known: &'a BTreeMap<String, Arc<dyn Material>>,
+        textures: &'a Textures,
+        shapes: BTreeSet<String>,
+    ) -> Self {
         let taken = known.keys().cloned().collect();
-        Self { known, textures, taken, found: Found::default() }
+        Self { known, textures, taken, shapes, found: Found::default() }
     }
 
     /// Adds a shape whose triangles have the materials that they name, and one for each material that emits, on one side or on both. Returns
@@ -98,6 +107,7 @@ impl<'a> FaceMaterials<'a> {
             match emission {
                 Some(radiance) => {
                     let name = format!("{shape}/{}", name.unwrap_or_default());
+                    let name = unique(name, &mut self.shapes);
                     let emission = Emission { radiance, two_sided };
                     glowing.push((name, mesh.part(triangles), key, emission));
                 }
@@ -130,8 +140,8 @@ impl<'a> FaceMaterials<'a> {
     ) -> Made {
         let mtl = library.get(name);
         let emission = mtl.and_then(|(index, mtl)| self.emission(&faces.libraries[*index], mtl));
-        // The line may change, and with floats a text is the simplest that all values are part of.
-        let values = mtl.map(|(_, mtl)| format!("{:?}", MtlMaterial { line: 0, ..mtl.clone() }));
+        // Lines may change, and with floats a text is the simplest that all values are part of.
+        let values = mtl.map(|(_, mtl)| format!("{:?}", mtl.without_lines()));
         let sum = crc32fast::hash(values.unwrap_or_default().as_bytes());
         self.found.identity.push(format!(
             "material {} of {} = {sum:08x}",
@@ -140,6 +150,9 @@ impl<'a> FaceMaterials<'a> {
         ));
         if self.known.contains_key(name) {
             return Made { key: name.to_owned(), emission };
+        }
+        if !self.found.unclaimed.iter().any(|known| known == name) {
+            self.found.unclaimed.push(name.to_owned());
         }
         let Some((index, mtl)) = mtl else {
             let note = format!(
@@ -152,14 +165,14 @@ impl<'a> FaceMaterials<'a> {
         };
         let file = &faces.libraries[*index];
         let (material, notes) = self.materials_of(file).make(mtl);
-        notes.into_iter().for_each(|note| self.note(file, mtl, &note));
+        self.note(file, mtl, &notes);
         Made { key: self.add_material(builder, shape, name, material), emission }
     }
 
     /// What faces of a material emit, if they do.
     fn emission(&mut self, file: &Path, mtl: &MtlMaterial) -> Option<TextureHandle<Spectrum>> {
         let (emission, notes) = self.materials_of(file).emission(mtl);
-        notes.iter().for_each(|note| self.note(file, mtl, note));
+        self.note(file, mtl, &notes);
         (emission.constant() != Some(Spectrum::BLACK)).then_some(emission)
     }
 
@@ -171,9 +184,11 @@ impl<'a> FaceMaterials<'a> {
         MtlMaterials { folder, textures: self.textures }
     }
 
-    fn note(&mut self, file: &Path, mtl: &MtlMaterial, note: &str) {
-        let place = format!("{}:{}", Shown::path(file), mtl.line);
-        self.found.notes.push(format!("{place}: material {}: {note}", quoted(&mtl.name)));
+    fn note(&mut self, file: &Path, mtl: &MtlMaterial, notes: &[MtlNote]) {
+        let (file, name) = (Shown::path(file), quoted(&mtl.name));
+        let note =
+            |MtlNote { line, what }: &MtlNote| format!("{file}:{line}: material {name}: {what}");
+        self.found.notes.extend(notes.iter().map(note));
     }
 
     /// Adds a material to the builder under a name that no other has.
@@ -184,10 +199,7 @@ impl<'a> FaceMaterials<'a> {
         name: &str,
         material: Arc<dyn Material>,
     ) -> String {
-        let mut key = format!("{shape}/{name}");
-        while !self.taken.insert(key.clone()) {
-            key.push('\'');
-        }
+        let key = unique(format!("{shape}/{name}"), &mut self.taken);
         self.found.materials.push((key.clone(), material.clone()));
         *builder = std::mem::take(builder).material(key.clone(), material);
         key
@@ -212,6 +224,14 @@ impl<'a> FaceMaterials<'a> {
         }
         library
     }
+}
+
+/// A name that is not among those that are taken, and now is.
+fn unique(mut name: String, taken: &mut BTreeSet<String>) -> String {
+    while !taken.insert(name.clone()) {
+        name.push('\'');
+    }
+    name
 }
 
 fn grey() -> Arc<dyn Material> {

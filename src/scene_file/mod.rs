@@ -17,13 +17,14 @@ mod report;
 mod sections;
 mod text;
 mod toml_tree;
+mod used;
 mod write;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 pub use error::{Place, SceneFileError, TextProblem};
-pub use report::{FaceMaterial, LoadReport, TextureImage};
+pub use report::{FaceMaterial, LoadReport, NamedKind, TextureImage};
 pub use sections::SECTIONS;
 
 use crate::accel::InstructionSet;
@@ -68,9 +69,10 @@ impl LoadedScene {
     }
 
     /// The text of a scene file with all values, those of overrides among them. Its paths are those of the file, which are relative to the
-    /// folder of the file, and those of overrides and of the scene of an OBJ file, which are relative to the current directory.
+    /// folder of the file, and those of overrides and of the scene of an OBJ file, which are relative to the current directory. Comments at
+    /// its end name the materials of MTL files that faces have, as tables that would replace them.
     pub fn to_toml(&self) -> String {
-        write::toml(&self.document.root)
+        write::toml(&self.document.root) + &write::replaceable(&self.faces.unclaimed)
     }
 
     /// What is rendered, as lines `key = value`: the version of this crate, all values of the file and the overrides, and
@@ -125,7 +127,9 @@ pub fn read_settings(path: &Path, overrides: &[&str]) -> Result<RenderSettings, 
         let source = Source::of_model(path, model::tree(path), overrides);
         return source.place(assemble::settings(&source.parse()?));
     }
-    Ok(read_with(path, overrides, assemble::describe)?.settings)
+    let text = text::of_scene(path)?;
+    let source = Source::new(path, &text, overrides);
+    Ok(source.place(assemble::describe(&source.parse()?))?.settings)
 }
 
 /// Reads a TOML file that is not a scene, such as a list of methods: passes its tree to `read`, and adds file, line and
@@ -137,16 +141,8 @@ pub fn read_document<T>(
     path: &Path,
     read: impl FnOnce(&Document) -> Result<T, Fault>,
 ) -> Result<T, SceneFileError> {
-    read_with(path, &[], read)
-}
-
-fn read_with<T>(
-    path: &Path,
-    overrides: &[&str],
-    read: impl FnOnce(&Document) -> Result<T, Fault>,
-) -> Result<T, SceneFileError> {
     let text = text::of_file(path)?;
-    let source = Source::new(path, &text, overrides);
+    let source = Source::new(path, &text, &[]);
     source.place(read(&source.parse()?))
 }
 
@@ -217,6 +213,8 @@ fn finish(
         source.place(assemble::build(description, &document, instruction_set))?;
     let report = LoadReport {
         seconds: 0.0,
+        materials: used::materials(&document.root, &faces.counts),
+        textures: used::textures(&document.root),
         meshes,
         notes: std::mem::take(&mut faces.notes),
         face_materials: std::mem::take(&mut faces.counts),

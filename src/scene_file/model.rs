@@ -5,8 +5,9 @@ use std::path::Path;
 
 use glam::{UVec2, Vec3};
 
+use super::overrides;
 use crate::camera::{Handedness, PerspectiveSettings};
-use crate::params::{Entry, Node, Value};
+use crate::params::{Entry, Fault, Mark, Node, Value};
 
 /// The name of the model among the shapes.
 pub const NAME: &str = "model";
@@ -97,9 +98,39 @@ pub fn make_grey(root: &mut Node) {
 
 /// Takes the grey material away from a model that has others.
 pub fn drop_grey(root: &mut Node) {
-    if let Value::Table(entries) = &mut root.value {
-        entries.retain(|entry| entry.key != "material");
+    let Value::Table(entries) = &mut root.value else { return };
+    for entry in entries.iter_mut().filter(|entry| entry.key == "material") {
+        if let Value::Table(materials) = &mut entry.node.value {
+            materials.retain(|material| material.key != GREY);
+        }
     }
+    entries.retain(|entry| entry.key != "material" || !entry.node.entries().is_empty());
+}
+
+/// Refuses materials of overrides that nothing can have: neither the model by its key, nor its `faces` by name.
+pub fn check_materials(root: &Node, faces: &[String]) -> Result<(), Fault> {
+    let own = match &root.follow(&["shape", NAME, "material"]).value {
+        Value::Text(name) => Some(name.as_str()),
+        _ => None,
+    };
+    let mut known = faces.iter().map(String::as_str).chain(own).collect::<Vec<_>>();
+    if faces.is_empty() {
+        known.push(GREY);
+    }
+    for entry in root.get("material").map_or(&[][..], Node::entries) {
+        if let Some(mark) = changed(entry).filter(|_| !known.contains(&&*entry.key)) {
+            let problem = overrides::unknown_name("material", &entry.key, known.into_iter());
+            return Err(Fault { mark, problem });
+        }
+    }
+    Ok(())
+}
+
+/// Where an override changes an entry, if one does.
+fn changed(entry: &Entry) -> Option<Mark> {
+    let marks = [entry.mark, entry.node.mark];
+    let own = marks.into_iter().find(|mark| mark.source > 0);
+    own.or_else(|| entry.node.entries().iter().find_map(changed))
 }
 
 /// From the model to the camera.

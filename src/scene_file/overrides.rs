@@ -3,15 +3,16 @@
 use std::collections::BTreeSet;
 
 use super::error::TextProblem;
-use super::sections::SECTIONS;
+use super::sections::{MATERIAL, SECTIONS};
 use super::toml_tree::parse;
 use crate::params::{Fault, Mark, Node, Problem, Value};
 
 /// Sets a key of the document to the value in the override `text`, whose index is `source`.
 ///
 /// Keys that the file does not have are added, and checked later by the tables' readers. But textures, materials,
-/// lights and shapes have to exist. A value that is a table replaces the table, with all of its keys.
-pub fn apply(root: &mut Node, text: &str, source: usize) -> Result<(), Fault> {
+/// lights and shapes have to exist, except for materials of models: [`prepare`](super::prepare) checks these when it knows what faces
+/// name. A value that is a table replaces the table, with all of its keys.
+pub fn apply(root: &mut Node, text: &str, source: usize, of_model: bool) -> Result<(), Fault> {
     let mark = Mark { source, offset: 0 };
     let fault = |problem| Fault::new(mark, problem);
     let Some((key, value)) = text.split_once('=') else {
@@ -22,15 +23,15 @@ pub fn apply(root: &mut Node, text: &str, source: usize) -> Result<(), Fault> {
         return Err(fault(TextProblem::NoAssignment));
     }
     for (kind, node) in new.entries().iter().map(|entry| (&entry.key, &entry.node)) {
-        if SECTIONS.iter().any(|section| section.is_named() && section.key() == kind) {
+        let is_later = of_model && kind == MATERIAL.key;
+        if !is_later && SECTIONS.iter().any(|s| s.is_named() && s.key() == kind) {
             let known = || root.get(kind).map_or(&[][..], Node::entries).iter().map(|e| &*e.key);
             let mut unknown: BTreeSet<&str> = node.entries().iter().map(|e| &*e.key).collect();
             for name in known() {
                 unknown.remove(name);
             }
             if let Some(entry) = node.entries().iter().find(|e| unknown.contains(&*e.key)) {
-                let problem = Problem::unknown_name(kind, &entry.key, known());
-                return Err(Fault { mark, problem });
+                return Err(Fault { mark, problem: unknown_name(kind, &entry.key, known()) });
             }
         }
     }
@@ -41,6 +42,17 @@ pub fn apply(root: &mut Node, text: &str, source: usize) -> Result<(), Fault> {
     }
     put(root, new, depth);
     Ok(())
+}
+
+/// The problem that there is nothing of a name to override.
+pub fn unknown_name<'a>(kind: &str, name: &str, known: impl Iterator<Item = &'a str>) -> Problem {
+    let mut problem = Problem::unknown_name(kind, name, known);
+    if let Problem::UnknownName { hint, .. } = &mut problem
+        && !hint.ends_with('?')
+    {
+        *hint += "; --set cannot add one: write it into the scene file";
+    }
+    problem
 }
 
 /// A shell removes the quotes around a string. If adding them makes the override valid, suggests that.

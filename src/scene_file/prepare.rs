@@ -8,7 +8,8 @@ use super::{assemble, model};
 use crate::params::Document;
 use crate::shape::{ObjMesh, read_obj};
 
-/// Loads the mesh of a model, and adds what depends on it to its scene: the camera's place and the material of a model without any.
+/// Loads the mesh of a model, and adds what depends on it to its scene: the camera's place and the material of a model without any. Materials of
+/// overrides have to be of the model.
 /// `None` if an override took the shape away.
 pub fn mesh(
     source: &Source,
@@ -24,6 +25,8 @@ pub fn mesh(
     let corners = loaded.mesh.indices.iter().flatten();
     let corner = |&i: &u32| stage.transform.transform_point3(loaded.mesh.positions[i as usize]);
     model::place_camera(&mut document.root, corners.map(corner), stage.resolution);
+    let faces = if stage.is_bare { &loaded.materials.names[..] } else { &[] };
+    source.place(model::check_materials(&document.root, faces))?;
     if stage.is_bare {
         match loaded.materials.of_triangles.is_empty() {
             true => model::make_grey(&mut document.root),

@@ -20,8 +20,24 @@ pub struct LoadReport {
     pub notes: Vec<String>,
     /// The materials that faces name, for each shape in the order of its file.
     pub face_materials: Vec<FaceMaterial>,
+    /// The materials of the scene file, in its order.
+    pub materials: Vec<NamedKind>,
+    /// The textures of the scene file, in its order.
+    pub textures: Vec<NamedKind>,
     /// The images of textures, by file; one file twice if its codes mean different things to two of them.
     pub images: Vec<TextureImage>,
+}
+
+/// A material or a texture of a scene file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct NamedKind {
+    /// Its name.
+    pub name: String,
+    /// Its `type`.
+    pub kind: String,
+    /// Whether anything in the scene refers to it.
+    pub is_used: bool,
 }
 
 /// A material that triangles of an OBJ file name.

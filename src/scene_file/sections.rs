@@ -116,7 +116,8 @@ pub static LIGHT: Section<light::Read> = Section {
 
 pub const SHAPE_MATERIAL: Key<Option<String>> = Key::optional(
     MATERIAL.key,
-    "name of the material; required unless the shape emits light, and a shape without one reflects nothing",
+    "name of the material; required but for shapes with emission, which reflect nothing without one, and for OBJ files whose faces name \
+     materials: of the scene, else of MTL files, else grey",
 );
 pub const EMISSION: TextureKey<Option<Spectrum>> = TextureKey::of(
     Key::optional("emission", "emitted radiance, in W / (m² sr); a texture is not filtered")

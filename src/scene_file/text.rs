@@ -10,17 +10,10 @@ use crate::params::{Fault, Mark};
 /// Maximum size of a file, in MiB: for scenes of more than three million materials.
 const MOST: u64 = 128;
 
-/// Endings of models and scenes of other programs.
-const FOREIGN: [&str; 18] = [
-    "3ds", "abc", "blend", "dae", "fbx", "glb", "gltf", "mtl", "pbrt", "ply", "stl", "usd", "usda",
-    "usdc", "usdz", "wrl", "x3d", "xml",
-];
-
-/// The text of a scene file. Its name must not tell that it is something else.
+/// The text of a scene file, whose name ends in .toml.
 pub fn of_scene(path: &Path) -> Result<String, SceneFileError> {
-    let ending = path.extension().unwrap_or_default();
     let unreadable = |source| SceneFileError::Unreadable { path: path.to_owned(), source };
-    if FOREIGN.iter().any(|foreign| ending.eq_ignore_ascii_case(foreign)) {
+    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
         file::open(path).map_err(unreadable)?;
         return Err(SceneFileError::Ending(path.to_owned()));
     }

@@ -11,6 +11,17 @@ pub fn toml(root: &Node) -> String {
     text
 }
 
+/// Comments with a table for each material that faces name and the scene does not have.
+pub fn replaceable(names: &[String]) -> String {
+    if names.is_empty() {
+        return String::new();
+    }
+    let table = |name: &String| format!("# [material.{}]\n# type = \"matte\"\n", key_text(name));
+    let tables: Vec<String> = names.iter().map(table).collect();
+    let before = "\n# Faces have these materials, of MTL files. To replace one, take away the # of its table:\n#\n";
+    before.to_owned() + &tables.join("#\n")
+}
+
 /// Writes the values of a table, then its tables.
 fn write_table(text: &mut String, name: &str, entries: &[Entry], levels: u32) {
     let is_table = |entry: &&Entry| levels > 0 && matches!(entry.node.value, Value::Table(_));

@@ -19,8 +19,10 @@ impl TriangleMesh {
 }
 
 const CORNER: Key<Vec3> = Key::new("corner", "one of its corners");
-const EDGES: Key<[Vec3; 2]> =
-    Key::new("edges", "the edges from there; their cross product points outside");
+const EDGES: Key<[Vec3; 2]> = Key::new(
+    "edges",
+    "the edges from there, along which u and v run from 0 to 1; their cross product points outside",
+);
 
 /// `type = "rectangle"`
 pub(super) const KIND: Kind<Read> = Kind {

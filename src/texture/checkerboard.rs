@@ -92,16 +92,7 @@ const SECOND: TextureKey<Constant> = TextureKey::of(Key::new("second", "in the s
 pub(super) const KIND: Kind<Read> = Kind {
     name: "checkerboard",
     meaning: "Squares of two textures in turn, filtered over pixels in closed form",
-    keys: &[
-        &FIRST,
-        &SECOND,
-        mapping::KEYS[0],
-        mapping::KEYS[1],
-        mapping::KEYS[2],
-        mapping::KEYS[3],
-        mapping::KEYS[4],
-        mapping::KEYS[5],
-    ],
+    keys: mapping::with_keys!(&FIRST, &SECOND),
     read,
 };
 

@@ -7,6 +7,7 @@ use glam::{UVec2, Vec2};
 
 use super::channel::{Channel, OfChannel};
 use super::mapping::{self, Mapping};
+use super::place::Place;
 use super::texels::{Curve, Texels};
 use super::wrap::Wrap;
 use super::{AnyTexture, Read, Texture, Textures};
@@ -189,30 +190,6 @@ impl ImageTexture {
     }
 }
 
-/// A point between four pixels.
-#[derive(Clone, Copy, Default)]
-struct Place {
-    x: [u32; 2],
-    y: [u32; 2],
-    /// Weights of the second column and of the second row.
-    part: [f32; 2],
-    /// Whether the point is finite.
-    exists: bool,
-}
-
-impl Place {
-    #[inline]
-    fn value(&self, texels: &Texels) -> Spectrum {
-        if !self.exists {
-            Spectrum::BLACK
-        } else if self.part == [0.0; 2] {
-            texels.at(self.x[0], self.y[0])
-        } else {
-            texels.between(self.x, self.y, self.part)
-        }
-    }
-}
-
 impl Texture<Spectrum> for ImageTexture {
     fn evaluate(&self, si: &SurfaceInteraction) -> Spectrum {
         let points = self.mapping.points(si).into_iter();
@@ -289,20 +266,7 @@ const MINIFICATION: Key<Minification> = Key::new(
 pub(super) const KIND: Kind<Read> = Kind {
     name: "image",
     meaning: "An image file",
-    keys: &[
-        &FILE,
-        &VALUES,
-        &CURVE,
-        &WRAP,
-        &MAGNIFICATION,
-        &MINIFICATION,
-        mapping::KEYS[0],
-        mapping::KEYS[1],
-        mapping::KEYS[2],
-        mapping::KEYS[3],
-        mapping::KEYS[4],
-        mapping::KEYS[5],
-    ],
+    keys: mapping::with_keys!(&FILE, &VALUES, &CURVE, &WRAP, &MAGNIFICATION, &MINIFICATION),
     read,
 };
 

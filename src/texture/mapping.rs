@@ -187,6 +187,15 @@ const OFFSET: Key<[f32; 2]> =
 /// The keys of a mapping.
 pub(super) const KEYS: [&dyn AnyKey; 6] = [&PROJECTION, &CENTER, &TURN, &SCALE, &ROTATE, &OFFSET];
 
+/// The keys of a kind and those of a mapping.
+macro_rules! with_keys {
+    ($($own:expr),*) => {{
+        use $crate::texture::mapping::KEYS;
+        &[$($own,)* KEYS[0], KEYS[1], KEYS[2], KEYS[3], KEYS[4], KEYS[5]]
+    }};
+}
+pub(super) use with_keys;
+
 pub(super) fn read(table: &Table) -> Result<Mapping, Fault> {
     let turn = table.get(&TURN)?.map_or(Quat::IDENTITY, Quat::from);
     Ok(Mapping::new(table.get(&PROJECTION)?)

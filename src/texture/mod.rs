@@ -6,6 +6,7 @@ mod constant;
 mod image;
 mod mapping;
 mod mix;
+mod place;
 mod product;
 mod read;
 mod texels;

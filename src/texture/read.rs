@@ -57,16 +57,16 @@ pub(super) enum Pair {
 
 /// A type of values that textures of scene files can have.
 pub trait TextureValue: Param + Copy {
-    /// The texture, if its values have this type.
-    fn of(texture: &AnyTexture) -> Option<&TextureHandle<Self>>;
+    /// The texture, if its values have this type or become it: numbers are greys.
+    fn of(texture: &AnyTexture) -> Option<TextureHandle<Self>>;
 
     /// A constant texture of this value.
     fn everywhere(self) -> TextureHandle<Self>;
 }
 
 impl TextureValue for f32 {
-    fn of(texture: &AnyTexture) -> Option<&TextureHandle<Self>> {
-        if let AnyTexture::Number(texture) = texture { Some(texture) } else { None }
+    fn of(texture: &AnyTexture) -> Option<TextureHandle<Self>> {
+        if let AnyTexture::Number(texture) = texture { Some(texture.clone()) } else { None }
     }
 
     fn everywhere(self) -> TextureHandle<Self> {
@@ -75,8 +75,8 @@ impl TextureValue for f32 {
 }
 
 impl TextureValue for Spectrum {
-    fn of(texture: &AnyTexture) -> Option<&TextureHandle<Self>> {
-        if let AnyTexture::Color(texture) = texture { Some(texture) } else { None }
+    fn of(texture: &AnyTexture) -> Option<TextureHandle<Self>> {
+        Some(texture.clone().into_color())
     }
 
     fn everywhere(self) -> TextureHandle<Self> {
@@ -175,7 +175,7 @@ impl Textures {
     /// The texture that the key's value names, or a constant texture if the value is a number or a colour.
     ///
     /// # Errors
-    /// If there is no texture of that name, if its values have another type, or if a constant is out of range;
+    /// If there is no texture of that name, if its values are colours where numbers are expected, or if a constant is out of range;
     /// and those of [`Table::get`].
     pub fn get<T: TextureValue>(
         &self,
@@ -254,11 +254,18 @@ impl Textures {
         let texture = self.by_name(name, node.mark)?;
         let found = T::of(texture);
         // Only constant textures can be checked against the range here.
-        let value = found.and_then(|texture| texture.constant()).and_then(|value| value.to_value());
+        let value = found.as_ref().and_then(|found| found.constant()?.to_value());
         let is_fit = value.is_none_or(|value| constant.accepts(&value));
-        found.filter(|_| is_fit).cloned().map(Some).ok_or_else(|| {
+        let has_type = found.is_some();
+        found.filter(|_| is_fit).map(Some).ok_or_else(|| {
             let found = format!("the texture {}, {}", quoted(name), describe(texture));
-            table.unfit(key, node, found, constant.expected())
+            let cure = match texture {
+                AnyTexture::Color(texture) if !has_type && texture.constant().is_none() => {
+                    "; an image has numbers with `values = \"luminance\"` in its table"
+                }
+                _ => "",
+            };
+            table.unfit(key, node, found, constant.expected() + cure)
         })
     }
 }

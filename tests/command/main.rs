@@ -12,6 +12,7 @@ mod folder;
 #[path = "../folders/mod.rs"]
 mod folders;
 mod images;
+mod info;
 mod interrupted;
 mod merge;
 mod model;
@@ -157,6 +158,7 @@ sampler      independent, 2 samples per pixel, seed 3
 integrator   chapter
 lights       1
 shape        wall: 3 triangles, 1 of them without area, 1 unused vertices
+material     clay: matte
 triangles    3
 degenerate   1 triangles without area, left out
 bounds       [-2, -2, 0] to [2, 2, 0]
@@ -178,7 +180,7 @@ fn help_teaches_by_examples() {
     assert!(folder.prints("--version").starts_with("lobe 0."));
 }
 
-/// The tables of the registries. Seen to fail with a key's meaning changed.
+/// The tables of the registries. Seen to fail with a key's meaning changed. Caught: kinds without a hint.
 #[test]
 fn help_lists_what_scene_files_can_hold() {
     let folder = Folder::new("topics");
@@ -194,6 +196,15 @@ fn help_lists_what_scene_files_can_hold() {
     assert!(
         folder.prints("help").contains("  lights        point, spot, distant, sky, environment\n")
     );
+    for (topic, hint) in [
+        ("scene", "did you mean `scene-format`?"),
+        ("glass", "it is among `materials`"),
+        ("image", "it is among `textures`"),
+        ("mix", "it is among `textures` and `materials`"),
+        ("film", "did you mean `filters`?"),
+    ] {
+        folder.fails(&format!("help {topic}"), &format!("there is no help on `{topic}`; {hint}"));
+    }
     folder.fails("help matreials", "there is no help on `matreials`; did you mean `materials`?");
     // All topics: seen to fail with a limit of twelve.
     folder.fails(

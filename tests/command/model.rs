@@ -124,7 +124,18 @@ direction = [0.55, -0.75, -0.65]
 irradiance = [1.5, 1.5, 1.5]
 
 [shape.model]
-obj = "model.obj""#
+obj = "model.obj"
+
+# Faces have these materials, of MTL files. To replace one, take away the # of its table:
+#
+# [material.red]
+# type = "matte"
+#
+# [material.blue]
+# type = "matte"
+#
+# [material.wood]
+# type = "matte""#
     );
     folder.write("own.toml", &scene);
     folder.prints(&format!("render own.toml -o own.exr {SMALL}"));
@@ -165,6 +176,7 @@ fn files_of_a_model_are_kept() {
     folder.fails("render wood.obj", "cannot write `wood.png`: it is read; give another name");
 }
 
+/// Caught: scene files of any ending.
 #[test]
 fn models_that_cannot_be_rendered() {
     let folder = folder("model-refused");
@@ -180,9 +192,12 @@ fn models_that_cannot_be_rendered() {
     folder.fails("render model.glb", "model.glb: expected a scene file, .toml, or a model, .obj");
     folder.fails("check model.glb", "model.glb: expected a scene file, .toml, or a model, .obj");
     folder.fails("render no.glb", "no.glb: there is no such file");
+    for arguments in ["render wood.png", "info wood.png --scene"] {
+        folder.fails(arguments, "wood.png: expected a scene file, .toml, or a model, .obj");
+    }
     folder.fails(
         "render model.obj --set shape.wall.scale=2",
-        "--set shape.wall.scale=2: the scene has no shape `wall`; expected `model`",
+        "--set shape.wall.scale=2: the scene has no shape `wall`; expected `model`; --set cannot add one: write it into the scene file",
     );
     // Without its MTL file it is grey.
     fs::remove_file(folder.0.join("model.mtl")).unwrap();

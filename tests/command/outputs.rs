@@ -49,19 +49,23 @@ fn outputs_are_not_the_scenes_own_files() {
     let folder = Folder::new("own");
     let scene = fs::read_to_string(folder.0.join("s.toml")).unwrap();
     fs::rename(folder.0.join("wall.obj"), folder.0.join("wall.png")).unwrap();
-    folder.write("s.png", &scene.replace("wall.obj", "wall.png"));
+    folder.write("s.toml", &scene.replace("wall.obj", "wall.png"));
     let own = |name: &str| format!("cannot write `{name}`: it is read; give another name");
-    folder.fails("render s.png -o ./wall.png", &own("./wall.png"));
-    folder.fails("render s.png -o a.exr -o s.png", &own("s.png"));
+    folder.fails("render s.toml -o ./wall.png", &own("./wall.png"));
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("s.toml", folder.0.join("s.png")).unwrap();
+        folder.fails("render s.toml -o a.exr -o s.png", &own("s.png"));
+    }
     folder.fails(
-        "render s.png -o a.exr -o ./a.exr",
+        "render s.toml -o a.exr -o ./a.exr",
         "`./a.exr` is given twice: give each output once",
     );
     // A link to no file yet leads there, and stays a link.
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink("real.png", folder.0.join("link.png")).unwrap();
-        folder.prints("render s.png -o link.png --quiet");
+        folder.prints("render s.toml -o link.png --quiet");
         assert!(fs::symlink_metadata(folder.0.join("link.png")).unwrap().is_symlink());
         assert!(fs::symlink_metadata(folder.0.join("real.png")).unwrap().is_file());
     }

@@ -16,7 +16,7 @@ fn libraries(folder: &Path, lines: &str) -> Vec<String> {
     read.materials.libraries.iter().map(relative).collect()
 }
 
-/// Seen to fail with words taken before the whole, and with the whole alone.
+/// Seen to fail with words taken before the whole, and with the whole alone. Caught: one file twice.
 #[test]
 fn a_line_names_one_file_or_several() {
     let folder = folder("libraries-lines");
@@ -33,6 +33,11 @@ fn a_line_names_one_file_or_several() {
         ("mtllib b.mtl no.mtl", vec!["b.mtl no.mtl"]),
         ("mtllib no.mtl", vec!["no.mtl"]),
         ("mtllib deep\\no.mtl", vec!["deep/no.mtl"]),
+        // One file, however it is named.
+        (
+            "mtllib a.mtl\nmtllib ./a.mtl\nmtllib deep/../a.mtl\nmtllib b.mtl A.MTL",
+            vec!["a.mtl", "b.mtl"],
+        ),
     ] {
         assert_eq!(libraries(&folder, lines), expected, "{lines}");
     }

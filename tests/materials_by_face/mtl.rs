@@ -83,6 +83,10 @@ fn keys_stand_in_any_order_and_case() {
     for key in ["norm", "map_Kn", "map_norm"] {
         assert!(good(format!("newmtl x\n{key} f.png"))[0].norm.is_some());
     }
+    // Of one name the first is kept, with its lines alone.
+    let kept = parse("newmtl x\nNs 1\nnewmtl\nNs 2\nnewmtl x\nNs 3\nnewmtl y\nNs 4").materials;
+    let kept: Vec<_> = kept.iter().map(|material| (&*material.name, material.ns)).collect();
+    assert_eq!(kept, [("x", Some(1.0)), ("y", Some(4.0))]);
     // Nothing is there that no line says, and the last line holds.
     assert_eq!(good("newmtl x")[0].kd, None);
     assert_eq!(good("newmtl x\nNs 1\nNs 2")[0].ns, Some(2.0));
@@ -106,9 +110,7 @@ fn text_may_be_written_in_many_ways() {
     ] {
         let found = good(&text);
         let without_lines = |materials: &[MtlMaterial]| {
-            let mut materials = materials.to_vec();
-            materials.iter_mut().for_each(|material| material.line = 0);
-            materials
+            materials.iter().map(MtlMaterial::without_lines).collect::<Vec<_>>()
         };
         assert_eq!(without_lines(&found), without_lines(&expected), "{text:?}");
     }
@@ -164,7 +166,7 @@ fn many_materials_are_read() {
     assert_eq!(good(text).len(), 200_000);
 }
 
-/// Files that cannot be read, with whole messages.
+/// Files that cannot be read, with whole messages. Caught: a limit of no file.
 #[test]
 fn files_that_cannot_be_read() {
     let folder = folder("mtl-unreadable");
@@ -184,6 +186,10 @@ fn files_that_cannot_be_read() {
     fs::write(folder.join("comment.mtl"), long.escape_ascii().to_string().replace("Kd", "#"))
         .unwrap();
     assert!(read_mtl(&folder.join("comment.mtl")).is_ok());
+    // It has no blocks on the disk.
+    fs::File::create(folder.join("large.mtl")).unwrap().set_len((128 << 20) + 1).unwrap();
+    let expected = "cannot be read: it is larger than 128 MiB, the most that is read";
+    assert_eq!(message("large.mtl"), format!("{}: {expected}", at("large.mtl")));
     #[cfg(unix)]
     {
         let pipe = folder.join("pipe.mtl");

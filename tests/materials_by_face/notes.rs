@@ -6,7 +6,8 @@ fn notes(text: impl AsRef<[u8]>) -> Vec<String> {
     parse(text).notes.iter().map(|note| note.to_string()).collect()
 }
 
-/// Each note whole, with its line. Seen to fail with negative colours and with models above 10 taken.
+/// Each note whole, with its line. Seen to fail with negative colours and with models above 10 taken. Caught: fractions of any size
+/// without a note.
 #[test]
 fn what_is_left_out_is_noted() {
     let color = "expected one or three numbers that are finite and not negative; it is left out";
@@ -52,6 +53,15 @@ fn what_is_left_out_is_noted() {
         let material = &parse(&text).materials[0];
         assert_eq!((material.pm, material.kd, material.ni), (Some(0.5), None, Some(1.25)));
     }
+    // Fractions above 1 are kept, as products with images may be below.
+    for line in ["Kd 2 0 0", "Ks 1.5", "Tf 0 0 3", "d 1.5", "Tr 2", "Pr 7", "Pm 1.01"] {
+        let (key, value) = line.split_once(' ').unwrap();
+        let text = format!("newmtl x\n{line}");
+        let note = format!("line 2: {key} is `{value}`: what is above 1 counts as 1");
+        assert_eq!(notes(&text), [note]);
+    }
+    assert_eq!(parse("newmtl x\nKd 2 0 0\nKe 9").materials[0].kd, Some([2.0, 0.0, 0.0]));
+    assert_eq!(notes("newmtl x\nKd 1\nKs 1\nKe 9\nd 1\nNs 900\nNi 1.5"), [""; 0]);
     assert_eq!(
         notes("Kd 1 1 1\nnewmtl x\nnewmtl\nnewmtl x\n"),
         [
@@ -65,16 +75,17 @@ fn what_is_left_out_is_noted() {
 /// The same thing once a file, at its first line, with a count. Seen to fail with a note for each line, and without a limit.
 #[test]
 fn notes_stand_once() {
-    let text = "newmtl x\nshine 1\nPcr 1\nNs high\nNs low\n".repeat(1000);
+    let lines = "shine 1\nPcr 1\nshine 1\nNs high\nNs low\n".repeat(1000);
+    let text = format!("newmtl x\n{lines}{}", "newmtl x\n".repeat(999));
     assert_eq!(
         notes(format!("shine 1\n{text}")),
         [
             "line 1: `shine` stands above the first newmtl; it is left out",
-            "line 3: the key `shine` is not known (the same in 999 more lines)",
+            "line 3: the key `shine` is not known (the same in 1999 more lines)",
             "line 4: the key `Pcr` is not known (the same in 999 more lines)",
-            "line 5: Ns is `high`, expected a finite number; it is left out (the same in 999 more lines)",
-            "line 6: Ns is `low`, expected a finite number; it is left out (the same in 999 more lines)",
-            "line 7: material `x` stands there twice; the first one holds (the same in 998 more lines)",
+            "line 6: Ns is `high`, expected a finite number; it is left out (the same in 999 more lines)",
+            "line 7: Ns is `low`, expected a finite number; it is left out (the same in 999 more lines)",
+            "line 5003: material `x` stands there twice; the first one holds (the same in 998 more lines)",
         ]
     );
     assert_eq!(

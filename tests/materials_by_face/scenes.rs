@@ -101,7 +101,8 @@ fn faces_have_the_materials_that_they_name() {
     assert!(loaded.scene.lights().is_empty());
 }
 
-/// Notes of the MTL file have its name and line. Seen to fail with notes about images or keys left out.
+/// Notes of the MTL file have its name and the line of the key. Seen to fail with notes about images or keys left out.
+/// Caught: the line of `newmtl`.
 #[test]
 fn notes_name_file_and_line() {
     let folder = folder("scenes-notes");
@@ -120,9 +121,30 @@ fn notes_name_file_and_line() {
         without_folder(&loaded.report.notes, &folder),
         [
             "m.mtl:8: the key `shine` is not known",
-            "m.mtl:5: material \"lamp\": cannot read `no.png`: there is no such file",
+            "m.mtl:9: material \"lamp\": map_Kd: cannot read `no.png`: there is no such file",
         ]
     );
+}
+
+/// A shape of the scene file may have the name that a lamp of an MTL file would get. Caught: both of one name, so that the instance was of
+/// the wrong one.
+#[test]
+fn lamps_have_names_of_their_own() {
+    let folder = folder("scenes-lamp-names");
+    write(&folder, "m.obj", squares(MATERIALS));
+    write(&folder, "m.mtl", MTL);
+    let before = "[material.m]\ntype = \"matte\"\n[shape.\"s/lamp\"]\ntype = \"rectangle\"\nmaterial = \"m\"\ncorner = [0, 5, 0]\n\
+                  edges = [[1, 0, 0], [0, 1, 0]]\n";
+    let model = "[shape.s]\nobj = \"m.obj\"\n";
+    for text in [format!("{before}{model}"), format!("{model}{before}")] {
+        let loaded =
+            load(&folder, &format!("{text}[instance.i]\nshape = \"s\"\ntranslate = [0, 0, 1]\n"));
+        let mut names: Vec<_> = loaded.scene.shapes().map(|(name, _)| name).collect();
+        names.sort();
+        assert_eq!(names, ["i", "s", "s/lamp", "s/lamp'"]);
+        assert_eq!(loaded.scene.lights().len(), 2);
+        assert_eq!(loaded.scene.instances().collect::<Vec<_>>(), [("i", "s")]);
+    }
 }
 
 /// Of several libraries the first with the name holds. Seen to fail with the last.
@@ -205,7 +227,7 @@ fn a_shape_without_materials_is_refused() {
     write(&folder, "m.obj", squares([""; 5]));
     write(&folder, "s.toml", "[shape.s]\nobj = \"m.obj\"\n");
     let error = read_scene(&folder.join("s.toml"), &[]).err().unwrap().to_string();
-    let expected = "s.toml:1:1: [shape.s] lacks `material`, expected a text in quotes";
+    let expected = "s.toml:1:1: [shape.s] lacks `material`, expected the name of a material, or `emission`, or an OBJ file whose faces name materials";
     assert_eq!(without_folder(&[error], &folder), [expected]);
 }
 

@@ -171,6 +171,54 @@ fn the_scene_as_text_is_the_same_scene() {
     assert_eq!(again.to_toml(), text);
 }
 
+/// Materials that faces name are replaced by overrides, and the model gets one of a new name; no other material is added. The text of
+/// the scene names those of the MTL file that are left. Caught: all materials of overrides dropped; any name taken; the grey material of a
+/// model that has others.
+#[test]
+fn materials_of_mtl_files_are_replaced() {
+    let faces = "mtllib faces.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl red\nf 1 2 3\nusemtl dark blue\nf 1 2 4\n";
+    file("faces.mtl", "newmtl red\nKd 1 0 0\nnewmtl dark blue\nKd 0 0 1\n");
+    let path = file("faces.obj", faces);
+    let names = |loaded: &LoadedScene| {
+        loaded.materials().map(|(name, _)| name.to_owned()).collect::<Vec<_>>()
+    };
+    let loaded = read_scene(&path, &[]).unwrap();
+    assert_eq!(names(&loaded), ["model/red", "model/dark blue"]);
+    let comments = "\n# Faces have these materials, of MTL files. To replace one, take away the # of its table:\n#\n";
+    let blue = "# [material.\"dark blue\"]\n# type = \"matte\"\n";
+    let red = "# [material.red]\n# type = \"matte\"\n#\n";
+    let text = loaded.to_toml();
+    assert!(text.ends_with(&format!("{comments}{red}{blue}")), "{text}");
+    // As it is told.
+    let replaced = text.replace("# [", "[").replace("# t", "t");
+    let replaced = parse_scene("faces.toml".as_ref(), &replaced, &[]).unwrap();
+    assert_eq!(names(&replaced), ["red", "dark blue"]);
+
+    let loaded =
+        read_scene(&path, &["material.red={type=\"mirror\"}", "material.red.kr=[0,1,0]"]).unwrap();
+    assert_eq!(names(&loaded), ["red", "model/dark blue"]);
+    let text = loaded.to_toml();
+    assert!(text.contains("\n[material.red]\ntype = \"mirror\"\nkr = [0, 1, 0]\n"), "{text}");
+    assert!(text.ends_with(&format!("{comments}{blue}")), "{text}");
+
+    let gold = ["shape.model.material=\"gold\"", "material.gold={type=\"metal\"}"];
+    assert_eq!(names(&read_scene(&path, &gold).unwrap()), ["grey", "gold"]);
+    for (set, message) in [
+        ("material.rde={type=\"mirror\"}", "the scene has no material `rde`; did you mean `red`?"),
+        (
+            "material.gold={type=\"metal\"}",
+            "the scene has no material `gold`; expected `red` or `dark blue`; --set cannot add one: write it into the scene file",
+        ),
+        (
+            "material.grey.kd=[1,1,1]",
+            "the scene has no material `grey`; expected `red` or `dark blue`; --set cannot add one: write it into the scene file",
+        ),
+    ] {
+        let found = read_scene(&path, &[set]).err().unwrap().to_string();
+        assert_eq!(found, format!("--set {set}: {message}"));
+    }
+}
+
 #[test]
 fn models_that_cannot_be_read() {
     let refused = |path: &Path, set: &[&str]| read_scene(path, set).err().unwrap().to_string();
@@ -196,9 +244,10 @@ fn models_that_cannot_be_read() {
     let arrow = file("refused.obj", ARROW);
     let name = arrow.display();
     let cases = [
-        ("shape.arrow.scale=2", "--set shape.arrow.scale=2: the scene has no shape `arrow`; expected `model`".to_owned()),
+        ("shape.arrow.scale=2", "--set shape.arrow.scale=2: the scene has no shape `arrow`; expected `model`; --set cannot add one: write it into the scene file".to_owned()),
         ("camera.fvo=2", "--set camera.fvo=2: unknown key `fvo` in [camera]; did you mean `fov`?".to_owned()),
         ("shape.model.material=\"clay\"", "--set shape.model.material=\"clay\": the scene has no material `clay`; expected `grey`".to_owned()),
+        ("material.red={type=\"mirror\"}", "--set material.red={type=\"mirror\"}: the scene has no material `red`; expected `grey`; --set cannot add one: write it into the scene file".to_owned()),
         ("shape.model.obj=\"none.obj\"", "--set shape.model.obj=\"none.obj\": none.obj: there is no such file".to_owned()),
         ("shape.model.scale=1e30", format!("scene of {name}: shape \"model\": vertex 0 is at [-2000000000000000000000000000000, 0, 0], expected finite coordinates up to 1e12")),
         ("camera.type=\"orthographic\"", format!("scene of {name}: unknown key `fov` in [camera] of type \"orthographic\"; expected `type`, `eye`, `look_at`, `up`, `handedness`, `extent`, `lens_radius` or `focal_distance`")),

@@ -129,3 +129,19 @@ impl Filter for Parabola {
         1.0 - 0.25 * x * x
     }
 }
+
+/// A floor at y = -2.
+pub fn floor_of(material: MatteMaterial) -> SceneBuilder {
+    Scene::builder().material("floor", material).shape("floor", floor(-2.0, 6.0), "floor")
+}
+
+/// Looks from the origin straight down, on 2 × 2 units of the floor.
+pub fn from_above() -> View {
+    let camera = PerspectiveSettings {
+        look_at: Vec3::NEG_Y,
+        up: Vec3::Z,
+        fov: 2.0 * 0.5_f32.atan().to_degrees(),
+        ..PerspectiveSettings::default()
+    };
+    view(&camera, UVec2::splat(16))
+}

@@ -10,7 +10,7 @@ use lobe::glam::UVec2;
 use lobe::params::{Choice, Shown};
 use lobe::render::{RenderSettings, SamplerSettings};
 use lobe::scene::{Scene, View};
-use lobe::scene_file::{FaceMaterial, LoadReport, LoadedScene, TextureImage};
+use lobe::scene_file::{FaceMaterial, LoadReport, LoadedScene, NamedKind, TextureImage};
 
 use crate::scene::{IsaArgument, SceneArguments};
 use crate::summary::{Summary, print};
@@ -49,7 +49,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     add_view(&mut summary, &view);
     add_settings(&mut summary, &settings);
     summary.add("lights", scene.lights().len());
-    for ((name, mesh), odd) in scene.shapes().zip(&report.meshes) {
+    // Copies come last, and are counted.
+    let own = scene.shapes().count() - scene.copies().count();
+    for ((name, mesh), odd) in scene.shapes().zip(&report.meshes).take(own) {
         let mut line = format!("{name}: {} triangles", mesh.indices.len());
         if odd.degenerate_triangles > 0 {
             line += &format!(", {} of them without area", odd.degenerate_triangles);
@@ -93,22 +95,39 @@ fn scene_text(loaded: &LoadedScene, path: &Path) -> Result<(), Box<dyn Error>> {
     Ok(print(&loaded.to_toml())?)
 }
 
-/// A line for each shape that has instances.
+/// A line for each shape that has instances, or copies in place of these.
 fn add_instances(summary: &mut Summary, scene: &Scene) {
-    let mut counts = BTreeMap::new();
-    for (_, shape) in scene.instances() {
-        *counts.entry(shape).or_insert(0_usize) += 1;
-    }
-    for (shape, count) in counts {
+    for (shape, count) in counts(scene.instances()) {
         summary.add("instances", format!("{shape}: {count}"));
+    }
+    for (shape, count) in counts(scene.copies()) {
+        let copies = if count == 1 { "copy" } else { "copies" };
+        summary.add("instances", format!("{shape}: {count} {copies}"));
     }
 }
 
-/// A line for each material that faces name, and each image.
+fn counts<'a>(all: impl Iterator<Item = (&'a str, &'a str)>) -> BTreeMap<&'a str, usize> {
+    let mut counts = BTreeMap::new();
+    all.for_each(|(_, shape)| *counts.entry(shape).or_insert(0) += 1);
+    counts
+}
+
+/// A line for each material, with the triangles of faces that name it, for each texture, and for each image.
 fn add_materials(summary: &mut Summary, report: &LoadReport) {
-    for FaceMaterial { name, triangle_count, is_emitting, .. } in &report.face_materials {
-        let light = if *is_emitting { ", emitting" } else { "" };
-        summary.add("material", format!("{name}: {triangle_count} triangles{light}"));
+    let named = |NamedKind { name, kind, is_used, .. }: &NamedKind| {
+        format!("{name}: {kind}{}", if *is_used { "" } else { ", not used" })
+    };
+    for material in &report.materials {
+        let faces = report.face_materials.iter().filter(|face| face.name == material.name);
+        let faces: String = faces.map(|face| format!(", {}", triangles(face))).collect();
+        summary.add("material", named(material) + &faces);
+    }
+    let is_own = |face: &&FaceMaterial| report.materials.iter().any(|own| own.name == face.name);
+    for face in report.face_materials.iter().filter(|face| !is_own(face)) {
+        summary.add("material", format!("{}: {}", face.name, triangles(face)));
+    }
+    for texture in &report.textures {
+        summary.add("texture", named(texture));
     }
     let here = std::env::current_dir().unwrap_or_default();
     for TextureImage { file, curve, size, bytes, .. } in &report.images {
@@ -117,6 +136,10 @@ fn add_materials(summary: &mut Summary, report: &LoadReport) {
         let UVec2 { x, y } = size;
         summary.add("texture", format!("{file}: {x}x{y} pixels, {curve}, {mib:.2} MiB"));
     }
+}
+
+fn triangles(FaceMaterial { triangle_count, is_emitting, .. }: &FaceMaterial) -> String {
+    format!("{triangle_count} triangles{}", if *is_emitting { ", emitting" } else { "" })
 }
 
 const MIB: f64 = (1 << 20) as f64;

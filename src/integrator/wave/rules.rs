@@ -30,8 +30,8 @@ pub struct PathRules {
 
 /// The depth at which Russian roulette starts.
 const FIRST_ROULETTE_DEPTH: u32 = 2;
-/// Paths that carry less than this go on in proportion to what they carry, and then carry this. With 1 they end too often: error times rays fall
-/// to 0.75 in a room, 0.82 in a box, 0.96 under a sky (docs/light.md).
+/// Paths that carry less than this go on in proportion to what they carry, and then carry this. With 1 they end too often
+/// (figures are in docs/light.md).
 pub const ROULETTE_WEIGHT: f32 = 0.25;
 
 impl PathRules {

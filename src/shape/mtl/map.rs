@@ -4,6 +4,8 @@
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MtlMap {
+    /// The line that names it, counted from 1.
+    pub line: u64,
     /// The name, as in the file: relative to its folder, often with backslashes.
     pub file: String,
     /// `-s`: factors of the texture coordinates.
@@ -21,8 +23,9 @@ pub struct MtlMap {
 }
 
 /// Parses options and the name after them. `None` if an option is not known or lacks a number, or if there is no name.
-pub fn parse(text: &str) -> Option<MtlMap> {
+pub fn parse(line: u64, text: &str) -> Option<MtlMap> {
     let mut map = MtlMap {
+        line,
         file: String::new(),
         scale: [1.0; 3],
         offset: [0.0; 3],

@@ -5,7 +5,7 @@ mod notes;
 mod report;
 
 use std::collections::HashSet;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
 pub use map::MtlMap;
@@ -19,18 +19,26 @@ use notes::Notes;
 /// Reads the MTL file at `path`. [`parse_mtl`] says how.
 ///
 /// # Errors
-/// If the file does not exist, is not an ordinary one or cannot be read. Messages name the file by `path`.
+/// If the file does not exist, is not an ordinary one, has more than 128 MiB or cannot be read. Messages name the file by `path`.
 pub fn read_mtl(path: &Path) -> Result<MtlLibrary, MtlError> {
     let name = path.display().to_string();
-    let file = file::open(path).map_err(|source| MtlError { name: name.clone(), source })?;
-    parse_mtl(&name, BufReader::new(file))
+    let failed = |source| MtlError { name: name.clone(), source };
+    let file = file::open(path).map_err(failed)?;
+    if file.metadata().map_err(failed)?.len() > MOST << 20 {
+        let reason = format!("it is larger than {MOST} MiB, the most that is read");
+        return Err(failed(std::io::Error::other(reason)));
+    }
+    parse_mtl(&name, BufReader::new(file.take(MOST << 20)))
 }
+
+/// Maximum size of a file, in MiB, as of scene files.
+const MOST: u64 = 128;
 
 /// Reads MTL text: for each `newmtl` line, the values of the lines below it as they stand there.
 ///
 /// What cannot be read is left out and noted with its line, the same thing once: programs write many keys that others do not know, and
 /// a scene should not fail for that. Keys may have any case. Lines end and comments begin as in OBJ files. A key that a material has
-/// twice has its last value.
+/// twice has its last value. Of materials with one name the first is kept, and none without a name.
 ///
 /// ```
 /// let text = "newmtl Brass\nKd 0.9 0.7 0.3\nPr 0.1\nmap_Kd -s 2 2 1 a plank.png\nshine 3\n";
@@ -70,6 +78,8 @@ pub fn parse_mtl(name: &str, reader: impl BufRead) -> Result<MtlLibrary, MtlErro
 struct Parser {
     materials: Vec<MtlMaterial>,
     names: HashSet<String>,
+    /// Whether the lines are those of a material that is not kept.
+    is_left_out: bool,
     notes: Notes,
 }
 
@@ -84,9 +94,16 @@ impl Parser {
         if key.eq_ignore_ascii_case("newmtl") {
             return self.begin(number, rest);
         }
+        if self.is_left_out {
+            return;
+        }
         let shown = Shown::name(key);
-        let note = match self.materials.last_mut().map(|material| set(material, key, rest)) {
+        let set = self.materials.last_mut().map(|material| set(material, number, key, rest));
+        let note = match set {
             Some(Set::Done) => return,
+            Some(Set::Above) => {
+                format!("{shown} is `{}`: what is above 1 counts as 1", Shown::name(rest))
+            }
             Some(Set::Unknown) => format!("the key `{shown}` is not known"),
             Some(Set::Unfit(expected)) => {
                 format!("{shown} is `{}`, expected {expected}; it is left out", Shown::name(rest))
@@ -97,14 +114,17 @@ impl Parser {
     }
 
     fn begin(&mut self, line: u64, name: &str) {
-        let material = MtlMaterial { name: name.to_owned(), line, ..MtlMaterial::default() };
-        self.materials.push(material);
+        self.is_left_out = true;
         if name.is_empty() {
             self.notes.add(line, "a newmtl has no name: no face can have it".into());
         } else if !self.names.insert(name.to_owned()) {
             let name = Shown::name(name);
             self.notes
                 .add(line, format!("material `{name}` stands there twice; the first one holds"));
+        } else {
+            self.is_left_out = false;
+            let material = MtlMaterial { name: name.to_owned(), line, ..MtlMaterial::default() };
+            self.materials.push(material);
         }
     }
 }
@@ -112,12 +132,14 @@ impl Parser {
 /// What became of a line.
 enum Set {
     Done,
+    /// A fraction was set that is above 1.
+    Above,
     Unknown,
     /// What was expected.
     Unfit(&'static str),
 }
 
-fn set(material: &mut MtlMaterial, key: &str, rest: &str) -> Set {
+fn set(material: &mut MtlMaterial, line: u64, key: &str, rest: &str) -> Set {
     let color = |target: &mut Option<[f32; 3]>| match colour(rest) {
         None => Set::Unfit("one or three numbers that are finite and not negative"),
         found => {
@@ -132,7 +154,19 @@ fn set(material: &mut MtlMaterial, key: &str, rest: &str) -> Set {
         }
         _ => Set::Unfit("a finite number"),
     };
-    let map = |target: &mut Option<MtlMap>| match map::parse(rest) {
+    let fraction = |set: Set, value: f32| match set {
+        Set::Done if value > 1.0 => Set::Above,
+        set => set,
+    };
+    let reflected = |target: &mut Option<[f32; 3]>| {
+        let set = color(target);
+        fraction(set, target.unwrap_or_default().into_iter().fold(0.0, f32::max))
+    };
+    let share = |target: &mut Option<f32>| {
+        let set = number(target);
+        fraction(set, target.unwrap_or_default())
+    };
+    let map = |target: &mut Option<MtlMap>| match map::parse(line, rest) {
         None => Set::Unfit("options with their numbers, and the name of an image"),
         found => {
             *target = found;
@@ -141,20 +175,20 @@ fn set(material: &mut MtlMaterial, key: &str, rest: &str) -> Set {
     };
     // Programs differ in case.
     match &*key.to_ascii_lowercase() {
-        "kd" => color(&mut material.kd),
-        "ks" => color(&mut material.ks),
+        "kd" => reflected(&mut material.kd),
+        "ks" => reflected(&mut material.ks),
         "ke" => color(&mut material.ke),
-        "tf" => color(&mut material.tf),
+        "tf" => reflected(&mut material.tf),
         "ns" => number(&mut material.ns),
         "ni" => number(&mut material.ni),
         // `d -halo` thins towards the middle.
         "d" => match rest.strip_prefix("-halo") {
             Some(_) => Set::Unfit("a finite number"),
-            None => number(&mut material.d),
+            None => share(&mut material.d),
         },
-        "tr" => number(&mut material.tr),
-        "pr" => number(&mut material.pr),
-        "pm" => number(&mut material.pm),
+        "tr" => share(&mut material.tr),
+        "pr" => share(&mut material.pr),
+        "pm" => share(&mut material.pm),
         "illum" => match rest.parse() {
             Ok(model @ 0..=10) => {
                 material.illum = Some(model);

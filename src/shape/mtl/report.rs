@@ -28,7 +28,7 @@ fn reason(source: &io::Error) -> String {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct MtlLibrary {
-    /// In the order of the file. Of two with the same name, the first holds.
+    /// In the order of the file, each name once: of two with the same name the first, and none without a name.
     pub materials: Vec<MtlMaterial>,
     /// What was left out, each thing once, in the order of the first lines.
     pub notes: Vec<MtlNote>,
@@ -94,4 +94,16 @@ pub struct MtlMaterial {
     pub map_bump: Option<MtlMap>,
     /// Image of normals.
     pub norm: Option<MtlMap>,
+}
+
+impl MtlMaterial {
+    /// The same values as if they stood anywhere else in a file: for comparisons.
+    pub fn without_lines(&self) -> Self {
+        let mut same = Self { line: 0, ..self.clone() };
+        let Self { map_kd, map_ke, map_d, map_pr, map_pm, map_bump, norm, .. } = &mut same;
+        for map in [map_kd, map_ke, map_d, map_pr, map_pm, map_bump, norm].into_iter().flatten() {
+            map.line = 0;
+        }
+        same
+    }
 }

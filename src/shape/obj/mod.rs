@@ -11,6 +11,8 @@ mod materials;
 mod merge;
 mod report;
 
+use std::collections::HashSet;
+use std::fs;
 use std::io::{BufRead, BufReader, ErrorKind};
 use std::path::{Path, PathBuf};
 
@@ -42,8 +44,11 @@ pub fn read_obj(path: &Path) -> Result<ObjMesh, ObjError> {
     let mut read = parse_obj(&name, BufReader::with_capacity(1 << 17, file))?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let libraries = std::mem::take(&mut read.materials.libraries);
-    read.materials.libraries =
-        libraries.iter().flat_map(|text| library_files(folder, &text.to_string_lossy())).collect();
+    let all = libraries.iter().flat_map(|text| library_files(folder, &text.to_string_lossy()));
+    // One file may be named in several ways.
+    let mut known = HashSet::new();
+    let is_new = |file: &PathBuf| known.insert(fs::canonicalize(file).unwrap_or(file.clone()));
+    read.materials.libraries = all.filter(is_new).collect();
     Ok(read)
 }
 

@@ -7,7 +7,7 @@ use std::error::Error;
 use std::io::{self, Write};
 
 use clap::Args;
-use lobe::params::{Shown, hint};
+use lobe::params::{AnySection, Shown, hint};
 use lobe::scene_file::SECTIONS;
 
 /// The topic for the page of the scene format.
@@ -24,7 +24,7 @@ pub struct Arguments {
 /// All topics, other than commands.
 pub fn topics() -> String {
     let topic = |name: &str, meaning: String| format!("  {name:<13} {meaning}\n");
-    let kinds = |section: &&dyn lobe::params::AnySection| {
+    let kinds = |section: &&dyn AnySection| {
         let names: Vec<_> = section.kinds().iter().map(|kind| kind.name).collect();
         topic(section.plural(), names.join(", "))
     };
@@ -48,15 +48,28 @@ pub fn run(arguments: &Arguments, program: clap::Command) -> Result<(), Box<dyn 
         None => {
             let commands = program.get_subcommands().map(clap::Command::get_name);
             let known = commands.chain(SECTIONS.map(|section| section.plural())).chain([PAGE]);
-            return Err(format!(
-                "there is no help on `{}`{}",
-                Shown::name(topic),
-                hint(topic, known)
-            )
-            .into());
+            let hint = kind(topic).unwrap_or_else(|| hint(topic, known));
+            return Err(format!("there is no help on `{}`{hint}", Shown::name(topic)).into());
         }
     };
     unless_closed(std::io::stdout().write_all(text.as_bytes()))
+}
+
+/// Where a word is explained that is a kind, or what topics are about.
+fn kind(word: &str) -> Option<String> {
+    if ["scene", "scenes"].contains(&word) {
+        return Some(format!("; did you mean `{PAGE}`?"));
+    }
+    let has_kind =
+        |section: &&&dyn AnySection| section.kinds().iter().any(|kind| kind.name == word);
+    let topics: Vec<_> =
+        SECTIONS.iter().filter(has_kind).map(|s| format!("`{}`", s.plural())).collect();
+    let section = SECTIONS.iter().find(|section| section.key() == word);
+    match section {
+        Some(section) => Some(format!("; did you mean `{}`?", section.plural())),
+        None if topics.is_empty() => None,
+        None => Some(format!("; it is among {}", topics.join(" and "))),
+    }
 }
 
 /// Prints the same as `--help`.

@@ -45,6 +45,30 @@ edges = [[0.0, 0.0, 10.0], [10.0, 0.0, 0.0]]
   right-handed program, `handedness = \"right\"` in `[camera]` renders it without mirroring. The outer side of a surface is
   where the cross product of two edges points, from the first corner to the second and to the third. Coordinates go up
   to 1e12 scene units.
+- **Materials of OBJ files.** A shape that has neither `material` nor `emission` takes the materials that its faces name
+  by `usemtl`: that of the scene file with the name, so that `[material.red]` replaces `red`; else that of the MTL file;
+  else grey. [Materials of MTL files](mtl.md) says what becomes of these.
+- **Images on surfaces.** u runs along the rows of an image from the left, v from the last row upwards. On a rectangle u
+  runs along the first of `edges` and v along the second. In a left-handed world an image on it is mirrored, seen from its
+  outer side: `scale = [-1, 1]` in the texture turns it, with `offset = [1, 0]` if it does not repeat. In a right-handed
+  world it reads as it is. Values of textures above the range of a key, such as 2 for `kd`, count as its end.
+- **Environment maps.** The middle of the image is towards +z, and its top towards +y. Right of the middle is +x in a
+  left-handed world and -x in a right-handed one. Both edges meet at -z.
+- **Instances** show a shape once more without a copy of its mesh, with the material of the shape. The shape stays where
+  it is, and the instance is scaled and rotated about the origin of the world, not about the shape's middle, then
+  translated:
+
+  ```toml
+  [shape.tree]
+  obj = \"tree.obj\"
+
+  [instance.second]
+  shape = \"tree\"
+  rotate = [0.0, 1.0, 0.0, 120.0]
+  translate = [4.0, 0.0, 1.0]
+  ```
+
+  Shapes that emit are copied, since each copy is a light of its own.
 - **Models.** An OBJ file can stand in place of a scene file: `lobe render model.obj`. A scene is made for it, which
   `lobe info model.obj --scene` prints: materials from its MTL file, a grey sky, a key light, and a camera that sees all
   of it from the front, right and above. Its world is right-handed, with y up and the front towards +z. The shape is
@@ -55,7 +79,8 @@ edges = [[0.0, 0.0, 10.0], [10.0, 0.0, 0.0]]
   W / (m² sr) if a scene unit is a metre. All numbers have to be finite.
 - **Paths** are relative to the folder of the scene file; in an override, to the current directory.
 - **Overrides**, `--set KEY=VALUE`, replace or add a value, in TOML: `--set camera.fov=40`,
-  `--set 'shape.dragon.obj=\"mine.obj\"'`. Later ones win. They cannot add a texture, material, light or shape.
+  `--set 'shape.dragon.obj=\"mine.obj\"'`. Later ones win. They cannot add a texture, material, light, shape or instance,
+  but they can replace a material that the faces of a model name: `--set 'material.red={type=\"mirror\"}'`.
 ";
 
 /// The whole page.

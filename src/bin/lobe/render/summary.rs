@@ -18,6 +18,10 @@ pub fn of(loaded: &LoadedScene, rendered: &Rendered, file: &Path) -> Summary {
     summary.add_film(view.film());
     summary.add("samples", format!("{} per pixel", rendered.samples_per_pixel));
     summary.add_meshes(scene);
+    let instances = scene.instances().count() + scene.copies().count();
+    if instances > 0 {
+        summary.add("instances", instances);
+    }
     summary.add("threads", rendered.threads);
     summary.add("isa", scene.accel().instruction_set());
     summary.add("load", format!("{:.3} s", report.seconds));
