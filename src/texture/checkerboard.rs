@@ -4,8 +4,8 @@ use std::ops::{Add, Mul};
 
 use glam::Vec2;
 
+use super::any::Pair;
 use super::mapping::{self, Mapping};
-use super::read::Pair;
 use super::value::Constant;
 use super::{AnyTexture, Read, Texture, TextureHandle, TextureKey, Textures};
 use crate::interaction::SurfaceInteraction;

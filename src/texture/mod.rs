@@ -1,5 +1,6 @@
 //! Textures: values that may vary over a surface.
 
+mod any;
 mod channel;
 mod checkerboard;
 mod constant;
@@ -14,13 +15,14 @@ mod value;
 mod wrap;
 
 pub use channel::Channel;
+pub use any::{AnyTexture, TextureValue};
 pub use checkerboard::CheckerboardTexture;
 pub use constant::ConstantTexture;
 pub use image::{ImageTexture, Magnification, Minification};
 pub use mapping::{Mapping, Projection};
 pub use mix::MixTexture;
 pub use product::ProductTexture;
-pub use read::{AnyTexture, Read, TextureKey, TextureValue, Textures};
+pub use read::{Read, TextureKey, Textures};
 pub use texels::{Curve, Texels};
 pub use traits::{Texture, TextureHandle};
 pub use wrap::Wrap;

@@ -5,84 +5,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::any::{AnyTexture, Pair, TextureValue};
 use super::texels::{Curve, Texels};
 use super::traits::{Texture, TextureHandle};
 use super::value::Constant;
 use crate::image::{Image, ReadError};
-use crate::interaction::SurfaceInteraction;
 use crate::params::{AnyKey, Fault, Key, Mark, Param, Problem, Table, Value, quoted};
-use crate::spectrum::Spectrum;
 
 /// Function that reads a kind of texture from a scene file. It may use textures defined earlier.
 pub type Read = fn(&Table, &Textures) -> Result<AnyTexture, Fault>;
-
-/// A texture whose value type is known at run time only.
-#[derive(Clone)]
-#[non_exhaustive]
-pub enum AnyTexture {
-    /// With values of type `f32`.
-    Number(TextureHandle<f32>),
-    /// With values of type [`Spectrum`].
-    Color(TextureHandle<Spectrum>),
-}
-
-impl AnyTexture {
-    /// With numbers as greys.
-    fn into_color(self) -> TextureHandle<Spectrum> {
-        match self {
-            Self::Color(texture) => texture,
-            Self::Number(TextureHandle::Constant(value)) => Spectrum::splat(value).everywhere(),
-            Self::Number(texture) => {
-                let grey = move |si: &SurfaceInteraction| Spectrum::splat(texture.evaluate(si));
-                grey.into_handle()
-            }
-        }
-    }
-}
-
-impl From<Constant> for AnyTexture {
-    fn from(constant: Constant) -> Self {
-        match constant {
-            Constant::Number(value) => Self::Number(value.everywhere()),
-            Constant::Color(value) => Self::Color(value.everywhere()),
-        }
-    }
-}
-
-/// Two textures with values of one type.
-pub(super) enum Pair {
-    Numbers([TextureHandle<f32>; 2]),
-    Colors([TextureHandle<Spectrum>; 2]),
-}
-
-/// A type of values that textures of scene files can have.
-pub trait TextureValue: Param + Copy {
-    /// The texture, if its values have this type.
-    fn of(texture: &AnyTexture) -> Option<&TextureHandle<Self>>;
-
-    /// A constant texture of this value.
-    fn everywhere(self) -> TextureHandle<Self>;
-}
-
-impl TextureValue for f32 {
-    fn of(texture: &AnyTexture) -> Option<&TextureHandle<Self>> {
-        if let AnyTexture::Number(texture) = texture { Some(texture) } else { None }
-    }
-
-    fn everywhere(self) -> TextureHandle<Self> {
-        TextureHandle::Constant(self)
-    }
-}
-
-impl TextureValue for Spectrum {
-    fn of(texture: &AnyTexture) -> Option<&TextureHandle<Self>> {
-        if let AnyTexture::Color(texture) = texture { Some(texture) } else { None }
-    }
-
-    fn everywhere(self) -> TextureHandle<Self> {
-        TextureHandle::Constant(self)
-    }
-}
 
 /// A key whose value is the name of a texture, or a constant. Range and default apply to the constant.
 ///
@@ -132,7 +63,8 @@ impl<T: Param> AnyKey for TextureKey<T> {
 /// The textures of a scene, by name, and the images that they share.
 #[derive(Clone, Default)]
 pub struct Textures {
-    named: BTreeMap<String, AnyTexture>,
+    /// Each with its cost: how many textures its value asks at a point, itself included; 0 if it is constant.
+    named: BTreeMap<String, (AnyTexture, u32)>,
     images: Arc<Mutex<Images>>,
 }
 
@@ -142,7 +74,13 @@ type Images = BTreeMap<(PathBuf, Curve), Arc<Texels>>;
 impl Textures {
     /// Adds a texture, or replaces the one of that name.
     pub fn add(&mut self, name: impl Into<String>, texture: AnyTexture) {
-        self.named.insert(name.into(), texture);
+        self.add_costing(name, texture, 0);
+    }
+
+    /// The same with the [cost](Table::cost) of the table that it was read from, which tables that name it are charged.
+    pub fn add_costing(&mut self, name: impl Into<String>, texture: AnyTexture, cost: u32) {
+        let cost = if texture.is_constant() { 0 } else { cost.saturating_add(1) };
+        self.named.insert(name.into(), (texture, cost));
     }
 
     /// The pixels of an image file, which is read once for each curve, by whatever path.
@@ -224,14 +162,15 @@ impl Textures {
     fn any(&self, table: &Table, key: &TextureKey<Constant>) -> Result<AnyTexture, Fault> {
         let Some(node) = table.value(key)? else { return table.get(&key.0).map(Constant::into) };
         match &node.value {
-            Value::Text(name) => self.by_name(name, node.mark).cloned(),
+            Value::Text(name) => self.by_name(table, name, node.mark).cloned(),
             Value::Number(_) | Value::Array(_) => table.get(&key.0).map(Constant::into),
             other => Err(table.unfit(key, node, other.to_string(), key.expected())),
         }
     }
 
-    fn by_name(&self, name: &str, mark: Mark) -> Result<&AnyTexture, Fault> {
-        self.named.get(name).ok_or_else(|| {
+    /// The texture that `table` names at `mark`.
+    fn by_name(&self, table: &Table, name: &str, mark: Mark) -> Result<&AnyTexture, Fault> {
+        let (texture, cost) = self.named.get(name).ok_or_else(|| {
             let known = self.named.keys().map(String::as_str);
             Fault { mark, problem: Problem::unknown_name("texture", name, known) }
         })
@@ -251,7 +190,7 @@ impl Textures {
             Value::Number(_) | Value::Array(_) => return Ok(None),
             other => return Err(table.unfit(key, node, other.to_string(), key.expected())),
         };
-        let texture = self.by_name(name, node.mark)?;
+        let texture = self.by_name(table, name, node.mark)?;
         let found = T::of(texture);
         // Only constant textures can be checked against the range here.
         let value = found.and_then(|texture| texture.constant()).and_then(|value| value.to_value());
@@ -259,7 +198,9 @@ impl Textures {
         found.filter(|_| is_fit).cloned().map(Some).ok_or_else(|| {
             let found = format!("the texture {}, {}", quoted(name), describe(texture));
             table.unfit(key, node, found, constant.expected())
-        })
+        })?;
+        table.charge(mark, *cost)?;
+        Ok(texture)
     }
 }
 
