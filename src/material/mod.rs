@@ -11,6 +11,7 @@ mod metal;
 mod mirror;
 mod mix;
 mod mtl;
+mod opacity;
 mod plastic;
 mod reflectance;
 mod retro;

@@ -125,7 +125,8 @@ pub trait Material: Send + Sync {
     }
 
     /// The fraction of rays that the surface stops, if some pass: see
-    /// [`DetailedMaterial::with_opacity`](super::DetailedMaterial::with_opacity). Scenes without such materials pay nothing.
+    /// [`DetailedMaterial::with_opacity`](super::DetailedMaterial::with_opacity). Scenes without such materials pay nothing. A material
+    /// around another one has to forward this, or its surface has no holes.
     fn opacity(&self) -> Option<&TextureHandle<f32>> {
         None
     }
