@@ -32,6 +32,12 @@ impl Facets {
     /// The lobe at a point, and a surface without lobes, in a frame that fits.
     #[inline]
     pub fn at<'a>(&'a self, si: &SurfaceInteraction) -> (Bsdf<'a>, MicrofacetReflection<'a>) {
+    /// Whether the surface is rough anywhere.
+    #[inline]
+    pub fn is_rough(&self) -> bool {
+        self.rough.is_some()
+    }
+
         self.of(si, self.fresnel, self.mean)
     }
 
