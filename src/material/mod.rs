@@ -17,6 +17,7 @@ mod reflectance;
 mod retro;
 mod roughness;
 mod scales;
+mod shared;
 mod thin_glass;
 mod traits;
 mod translucent;
