@@ -6,7 +6,7 @@ use std::path::Path;
 use glam::{UVec2, Vec3};
 
 use crate::camera::{Handedness, PerspectiveSettings};
-use crate::params::{Entry, Node, Value};
+use crate::params::{Entry, Fault, Mark, Node, Problem, Value};
 
 /// The name of the model among the shapes.
 pub const NAME: &str = "model";
@@ -96,10 +96,25 @@ pub fn make_grey(root: &mut Node) {
 }
 
 /// Takes the grey material away from a model that has others.
-pub fn drop_grey(root: &mut Node) {
-    if let Value::Table(entries) = &mut root.value {
-        entries.retain(|entry| entry.key != "material");
+///
+/// # Errors
+/// If an override sets something of it.
+pub fn drop_grey(root: &mut Node) -> Result<(), Fault> {
+    let Value::Table(entries) = &mut root.value else { return Ok(()) };
+    let materials = entries.iter().filter(|entry| entry.key == "material");
+    if let Some(mark) = materials.flat_map(|entry| entry.node.entries()).find_map(overridden) {
+        let problem = Problem::unknown_name("material", GREY, [].into_iter());
+        return Err(Fault { mark, problem });
     }
+    entries.retain(|entry| entry.key != "material");
+    Ok(())
+}
+
+/// Where an override stands that set this or something in it.
+fn overridden(entry: &Entry) -> Option<Mark> {
+    let mark = entry.node.mark;
+    let is_own = mark.source == 0;
+    if is_own { entry.node.entries().iter().find_map(overridden) } else { Some(mark) }
 }
 
 /// From the model to the camera.

@@ -27,7 +27,7 @@ pub fn mesh(
     if stage.is_bare {
         match loaded.materials.of_triangles.is_empty() {
             true => model::make_grey(&mut document.root),
-            false => model::drop_grey(&mut document.root),
+            false => source.place(model::drop_grey(&mut document.root))?,
         }
     }
     Ok(Some(loaded))
