@@ -134,7 +134,7 @@ fn copies_are_counted_before_they_are_made() {
     let (triangles, emission) =
         (lamp.indices.len(), Emission { radiance: Spectrum::WHITE, two_sided: false });
     let count = lobe::accel::Accel::MAX_TRIANGLES / triangles + 1;
-    let scene = Scene::builder().lamp("lamp", lamp.clone(), emission.clone());
+    let scene = Scene::builder().lamp("lamp", lamp.clone(), emission);
     let scene = (0..count)
         .fold(scene, |scene, i| scene.instance(i.to_string(), "lamp", Affine3A::IDENTITY));
     match scene.build().err() {
