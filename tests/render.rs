@@ -736,7 +736,7 @@ fn far_images_are_filtered() {
     let pixels = (0..64 * 64).map(|i| Spectrum::splat((i % 64 / 32 + i / 64 / 32) as f32 % 2.0));
     let (size, pixels, encoding) = (UVec2::splat(64), pixels.collect(), Encoding::Linear);
     let image = Image { size, pixels, variance: None, degrees_of_freedom: None, encoding };
-    let texels = Arc::new(Texels::new(&image, Curve::Linear));
+    let texels = Arc::new(Texels::new(&image, Curve::Linear).unwrap());
     let upright = lobe::glam::Quat::from_rotation_x(std::f32::consts::FRAC_PI_2);
     // 50 images in a pixel.
     let mapping =

@@ -10,12 +10,13 @@ mod mix;
 mod product;
 mod read;
 mod texels;
+mod texels_error;
 mod traits;
 mod value;
 mod wrap;
 
-pub use channel::Channel;
 pub use any::{AnyTexture, TextureValue};
+pub use channel::Channel;
 pub use checkerboard::CheckerboardTexture;
 pub use constant::ConstantTexture;
 pub use image::{ImageTexture, Magnification, Minification};
@@ -24,6 +25,7 @@ pub use mix::MixTexture;
 pub use product::ProductTexture;
 pub use read::{Read, TextureKey, Textures};
 pub use texels::{Curve, Texels};
+pub use texels_error::TexelsError;
 pub use traits::{Texture, TextureHandle};
 pub use wrap::Wrap;
 

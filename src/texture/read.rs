@@ -7,9 +7,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::any::{AnyTexture, Pair, TextureValue};
 use super::texels::{Curve, Texels};
+use super::texels_error::TexelsError;
 use super::traits::{Texture, TextureHandle};
 use super::value::Constant;
-use crate::image::{Image, ReadError};
+use crate::image::{Image, ImageFile, ReadError};
 use crate::params::{AnyKey, Fault, Key, Mark, Param, Problem, Table, Value, quoted};
 
 /// Function that reads a kind of texture from a scene file. It may use textures defined earlier.
@@ -61,17 +62,31 @@ impl<T: Param> AnyKey for TextureKey<T> {
 }
 
 /// The textures of a scene, by name, and the images that they share.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub struct Textures {
     /// Each with its cost: how many textures its value asks at a point, itself included; 0 if it is constant.
     named: BTreeMap<String, (AnyTexture, u32)>,
     images: Arc<Mutex<Images>>,
+    /// Bytes that each image may take.
+    limit: u64,
 }
 
-/// Images that were decoded, by canonical path and curve.
-type Images = BTreeMap<(PathBuf, Curve), Arc<Texels>>;
+/// Images that were decoded, or could not be, by canonical path and curve.
+type Images = BTreeMap<(PathBuf, Curve), Result<Arc<Texels>, Arc<ReadError>>>;
+
+impl Default for Textures {
+    /// None yet, and images of up to [`Image::DEFAULT_LIMIT`] bytes.
+    fn default() -> Self {
+        Self { named: BTreeMap::new(), images: Arc::default(), limit: Image::DEFAULT_LIMIT }
+    }
+}
 
 impl Textures {
+    /// Chooses how many bytes of memory each image may take from now on: as it is decoded, and what is made of it for lookups.
+    pub fn with_limit(self, limit: u64) -> Self {
+        Self { limit, ..self }
+    }
+
     /// Adds a texture, or replaces the one of that name.
     pub fn add(&mut self, name: impl Into<String>, texture: AnyTexture) {
         self.add_costing(name, texture, 0);
@@ -83,31 +98,41 @@ impl Textures {
         self.named.insert(name.into(), (texture, cost));
     }
 
-    /// The pixels of an image file, which is read once for each curve, by whatever path.
+    /// The pixels of an image file, which is read once for each curve, by whatever path, even if it cannot be used.
     ///
     /// # Errors
-    /// Those of [`Image::read`], and if a value is negative or not finite.
-    pub fn image(&self, file: &Path, curve: Curve) -> Result<Arc<Texels>, ReadError> {
+    /// Those of [`Image::read`] and [`Texels::new`], and if both together take more than the limit.
+    pub fn image(&self, file: &Path, curve: Curve) -> Result<Arc<Texels>, Arc<ReadError>> {
         let mut images = self.images.lock().unwrap_or_else(PoisonError::into_inner);
         let key = (fs::canonicalize(file).unwrap_or_else(|_| file.to_owned()), curve);
         if let Some(known) = images.get(&key) {
-            return Ok(known.clone());
+            return known.clone();
         }
-        let image = Image::read(file)?;
-        Texels::check(&image)
-            .map_err(|reason| ReadError::Contents { path: file.to_owned(), reason })?;
-        let texels = Arc::new(Texels::new(&image, curve));
-        images.insert(key, texels.clone());
+        let read = file_of_texels(file, curve, self.limit);
+        let read = read.map(Arc::new).map_err(Arc::new);
+        images.insert(key, read.clone());
+        read
+    }
+
+    /// The same with smaller images, for filtering.
+    ///
+    /// # Errors
+    /// Those of [`Textures::image`] and [`Texels::make_smaller`].
+    pub fn image_with_smaller(
+        &self,
+        file: &Path,
+        curve: Curve,
+    ) -> Result<Arc<Texels>, Arc<ReadError>> {
+        let texels = self.image(file, curve)?;
+        texels.make_smaller().map_err(|error| Arc::new(unfit(file, error)))?;
         Ok(texels)
     }
 
     /// All images that were read: the file, what its codes mean, and the pixels.
     pub fn images(&self) -> Vec<(PathBuf, Curve, Arc<Texels>)> {
         let images = self.images.lock().unwrap_or_else(PoisonError::into_inner);
-        images
-            .iter()
-            .map(|((file, curve), texels)| (file.clone(), *curve, texels.clone()))
-            .collect()
+        let read = images.iter().filter_map(|(key, texels)| Some((key, texels.as_ref().ok()?)));
+        read.map(|((file, curve), texels)| (file.clone(), *curve, texels.clone())).collect()
     }
 
     /// The texture that the key's value names, or a constant texture if the value is a number or a colour.
@@ -173,7 +198,9 @@ impl Textures {
         let (texture, cost) = self.named.get(name).ok_or_else(|| {
             let known = self.named.keys().map(String::as_str);
             Fault { mark, problem: Problem::unknown_name("texture", name, known) }
-        })
+        })?;
+        table.charge(mark, *cost)?;
+        Ok(texture)
     }
 
     /// The texture that the key's value names. `None` if the key is missing or its value is a constant. A texture
@@ -198,9 +225,23 @@ impl Textures {
         found.filter(|_| is_fit).cloned().map(Some).ok_or_else(|| {
             let found = format!("the texture {}, {}", quoted(name), describe(texture));
             table.unfit(key, node, found, constant.expected())
-        })?;
-        table.charge(mark, *cost)?;
-        Ok(texture)
+        })
+    }
+}
+
+/// Pixels of a file, within a limit of bytes.
+fn file_of_texels(file: &Path, curve: Curve, limit: u64) -> Result<Texels, ReadError> {
+    let image = ImageFile::open(file, limit)?.decode()?;
+    // Smaller images take less than the image itself, which is dropped before.
+    image.check_beside(file, Texels::BYTES, limit)?;
+    Texels::new(&image, curve).map_err(|error| unfit(file, error))
+}
+
+fn unfit(file: &Path, error: TexelsError) -> ReadError {
+    let path = file.to_owned();
+    match error {
+        TexelsError::OutOfMemory(bytes) => ReadError::OutOfMemory { path, bytes },
+        _ => ReadError::Contents { path, reason: error.to_string() },
     }
 }
 
