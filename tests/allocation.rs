@@ -14,10 +14,12 @@ use lobe::glam::Vec3;
 use lobe::integrator::{ChapterIntegrator, DirectIntegrator, PathIntegrator};
 use lobe::interaction::SurfaceInteraction;
 use lobe::light::{LightStrategy, SkyLight};
-use lobe::material::Material;
+use lobe::material::{Material, MetalMaterial, Roughness};
 use lobe::render::SamplerSettings;
 use lobe::sampling::SamplerKind;
-use lobe::{FilmSettings, PointLight, RenderOptions, RenderSettings, Spectrum, View, render};
+use lobe::{
+    FilmSettings, PointLight, RenderOptions, RenderSettings, Spectrum, TriangleMesh, View, render,
+};
 use scenes::{any, ball_over_floor, chapter_camera};
 
 /// The system's allocator, which counts its calls.
@@ -74,9 +76,20 @@ impl Material for ForeignMaterial {
 /// tile.
 ///
 /// All cases are in one test, since the counter is global to the process. Seen to fail with a box around each
-/// hit's material call, and with a new `Wave` for each tile.
+/// hit's material call, with a new `Wave` for each tile, and with tables of metals that are made at the first hit.
 #[test]
 fn rendering_allocates_nothing_after_set_up() {
+    // What a metal of a texture needs is there before its first hit.
+    let texture = |si: &SurfaceInteraction| Spectrum::splat(si.uv().x);
+    let metal = MetalMaterial::reflecting(texture).with_roughness(Roughness::alpha(0.3));
+    let mesh = TriangleMesh::parallelogram(Vec3::ZERO, Vec3::Z, Vec3::X);
+    let mut si = SurfaceInteraction::on_triangle(&mesh, 0, [0.3, 0.3, 0.4], Vec3::Y);
+    let arena = Arena::new();
+    let before = ALLOCATIONS.load(Ordering::SeqCst);
+    let bsdf = metal.compute_scattering(&mut si, &arena);
+    assert_eq!(ALLOCATIONS.load(Ordering::SeqCst) - before, 0, "a metal's first hit");
+    drop(bsdf);
+
     let chapter = ChapterIntegrator { highlight: true };
     for (integrator, kind) in [
         (any(chapter), SamplerKind::INDEPENDENT),

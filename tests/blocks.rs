@@ -538,7 +538,7 @@ fn images_change_no_bit() {
     let (size, pixels) = (UVec2::new(5, 7), pixels.collect());
     let encoding = Encoding::Linear;
     let image = Image { size, pixels, variance: None, degrees_of_freedom: None, encoding };
-    let texels = Arc::new(Texels::new(&image, Curve::Linear));
+    let texels = Arc::new(Texels::new(&image, Curve::Linear).unwrap());
     for projection in [Projection::Uv, Projection::Planar] {
         let mapping = Mapping::new(projection).scaled(Vec2::new(1.7, -2.3));
         let image = ImageTexture::new(texels.clone()).with_mapping(mapping);

@@ -6,7 +6,7 @@ use lobe::glam::{UVec2, Vec3};
 use lobe::integrator::{DirectIntegrator, PathIntegrator};
 use lobe::interaction::SurfaceInteraction;
 use lobe::light::SkyLight;
-use lobe::material::DetailedMaterial;
+use lobe::material::{DetailedMaterial, MixMaterial};
 use lobe::scene::{Emission, SceneBuilder};
 use lobe::{MatteMaterial, PointLight, RenderOptions, Scene, Spectrum, TriangleMesh, render};
 use scenes::{ball_over_floor, chapter_view, floor_of, from_above, independent};
@@ -96,6 +96,35 @@ fn thin_screens_let_a_part_of_the_rays_pass() {
     let error = (share * (1.0 - share) / count).sqrt();
     // The floor is not equally bright, which adds less than a tenth.
     assert!((through - share).abs() < 5.5 * error, "{through}");
+}
+
+/// Under a sky of 1 a part of a mixture that stops rays shows its reflectance, and the rest 1: also under details, with holes of their own or
+/// without. Within five standard errors.
+///
+/// Caught: mixtures without holes, and with lobes by the amount alone.
+#[test]
+fn mixtures_have_the_holes_of_their_parts() {
+    let screen =
+        TriangleMesh::parallelogram(Vec3::new(-9.0, -1.0, -9.0), Vec3::X * 18.0, Vec3::Z * 18.0);
+    let mixture = || {
+        let thin = DetailedMaterial::new(MatteMaterial::new([0.8; 3])).with_opacity(0.25);
+        MixMaterial::new(thin, MatteMaterial::new([0.3; 3]), |_: &SurfaceInteraction| 0.6)
+    };
+    let settings = independent(64, DirectIntegrator::default());
+    let seen = |material: DetailedMaterial| {
+        let scene = Scene::builder().material("m", material).shape("screen", screen.clone(), "m");
+        let scene = scene.light(SkyLight::new(Spectrum::WHITE)).build().unwrap();
+        let rendered = render(&scene, &from_above(), &settings, &RenderOptions::default()).unwrap();
+        let color = rendered.picture.color.iter().map(|color| f64::from(color.to_array()[0]));
+        color.sum::<f64>() / 256.0
+    };
+    let expected = 0.4 * (0.75 + 0.25 * 0.8) + 0.6 * 0.3;
+    // Values are between 0 and 1.
+    let error = 0.5 / (256.0_f64 * 64.0).sqrt();
+    let found = seen(DetailedMaterial::new(mixture()));
+    assert!((found - expected).abs() < 5.0 * error, "{found}, expected {expected}");
+    let found = seen(DetailedMaterial::new(mixture()).with_opacity(0.5));
+    assert!((found - 0.5 - 0.5 * expected).abs() < 5.0 * error, "{found}");
 }
 
 /// Lamps have no holes: their light is sampled everywhere on them. Seen to fail with holes in lamps.

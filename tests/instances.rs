@@ -153,6 +153,33 @@ fn hits_tell_shape_and_instance() {
     assert_eq!(scene.shape_of(4), None);
 }
 
+/// What is copied is counted before it is: no memory is taken for more triangles than a scene can have, nor for vertices that no triangle has.
+///
+/// Caught: triangles of copies that are not counted; copies with all vertices of their mesh. Copies made before they are counted take all memory.
+#[test]
+fn copies_are_counted_before_they_are_made() {
+    let mut lamp = lumpy_ball(150);
+    let (triangles, emission) =
+        (lamp.indices.len(), Emission { radiance: Spectrum::WHITE, two_sided: false });
+    let count = lobe::accel::Accel::MAX_TRIANGLES / triangles + 1;
+    let scene = Scene::builder().lamp("lamp", lamp.clone(), emission);
+    let scene = (0..count)
+        .fold(scene, |scene, i| scene.instance(i.to_string(), "lamp", Affine3A::IDENTITY));
+    match scene.build().err() {
+        Some(SceneError::TooManyTriangles(found)) => assert_eq!(found, (count + 1) * triangles),
+        other => panic!("{other:?}"),
+    }
+
+    lamp.indices.truncate(1);
+    let scene = Scene::builder().lamp("lamp", lamp, emission);
+    let scene = scene.instance("copy", "lamp", Affine3A::IDENTITY).build().unwrap();
+    let (_, copy) = scene.shapes().nth(1).unwrap();
+    assert_eq!(
+        (copy.positions.len(), copy.corners(0)),
+        (3, scene.shapes().next().unwrap().1.corners(0))
+    );
+}
+
 /// What cannot be an instance.
 #[test]
 fn bad_instances_are_refused() {

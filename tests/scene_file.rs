@@ -670,6 +670,73 @@ fn names_of_nothing() {
     )]);
 }
 
+/// Textures and materials that name others twice double with each, and chains are as deep as stacks: what a point may ask is limited, also of chains
+/// of textures in a material. Constants cost nothing. What is just within the limit renders.
+///
+/// Caught: no limit; the cost of the second name left out; a table's own evaluation left out; materials without cost; constants that cost.
+#[test]
+fn references_that_double() {
+    let chain = |kind: &str, first: &str, count: usize, line: &dyn Fn(usize) -> String| {
+        let first = format!("{kind}.x0 = {first}\n");
+        first + &(1..=count).map(|i| format!("{kind}.x{i} = {}\n", line(i))).collect::<String>()
+    };
+    let board = "{ type = \"checkerboard\", first = 1, second = 0.5 }";
+    let matte = "{ type = \"matte\" }";
+    let doubled = |i: usize| format!("{{ type = \"product\", a = \"x{0}\", b = \"x{0}\" }}", i - 1);
+    let halved = |i: usize| format!("{{ type = \"product\", a = \"x{}\", b = 0.999 }}", i - 1);
+    let mixed = |twice: bool| {
+        move |i: usize| {
+            let second = if twice { i - 1 } else { 0 };
+            format!("{{ type = \"mix\", first = \"x{}\", second = \"x{second}\" }}", i - 1)
+        }
+    };
+    let too_much = |name: &str, cost: u32| {
+        format!("[{name}] refers to {cost} evaluations at each point, above the limit of 1000")
+    };
+    all_refused(&[
+        (
+            &chain("texture", board, 60, &doubled),
+            &format!("s.toml:10:48: {}", too_much("texture.x9", 1022)),
+        ),
+        (
+            &chain("texture", board, 5000, &halved),
+            &format!("s.toml:1002:41: {}", too_much("texture.x1001", 1001)),
+        ),
+        (
+            &chain("material", matte, 60, &mixed(true)),
+            &format!("s.toml:8:54: {}", too_much("material.x7", 1016)),
+        ),
+        (
+            &format!(
+                "{}material.m = {{ type = \"matte\", sigma = \"x600\", bump = \"x500\" }}",
+                chain("texture", board, 600, &halved)
+            ),
+            &format!("s.toml:602:55: {}", too_much("material.m", 1102)),
+        ),
+    ]);
+    let constants = chain("texture", "{ type = \"constant\", value = 1 }", 2000, &doubled);
+    let within = [
+        format!("{constants}material.m = {{ type = \"matte\", bump = \"x2000\" }}\n"),
+        format!(
+            "{}material.m = {{ type = \"matte\", bump = \"x999\" }}\n",
+            chain("texture", board, 999, &halved)
+        ),
+        chain("material", matte, 124, &mixed(false)).replace("material.x124", "material.m"),
+    ];
+    let rest = "shape.s = { type = \"rectangle\", corner = [-9, -9, 1], edges = [[18, 0, 0], [0, 18, 0]], material = \"m\" }\n\
+                light.l = { type = \"point\", position = [0, 0, 0], intensity = [1, 1, 1] }\n\
+                film.resolution = [4, 4]\nsampler.spp = 1\n\
+                camera = { eye = [0, 0, 0], look_at = [0, 0, 1] }\n";
+    for (i, text) in within.iter().enumerate() {
+        let LoadedScene { scene, view, settings, .. } =
+            parse(&format!("{text}{rest}"), &[]).unwrap();
+        let rendered = lobe::render(&scene, &view, &settings, &Default::default()).unwrap();
+        let sum: f32 = rendered.picture.color.iter().map(|c| c.luminance()).sum();
+        // Of mixtures in mixtures lobes are lost.
+        assert!(sum > 0.0 && (sum > 0.1 || i == 2), "scene {i}: {sum}");
+    }
+}
+
 #[test]
 fn meshes_that_cannot_be_read() {
     let folder = folder("meshes");

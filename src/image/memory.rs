@@ -48,16 +48,17 @@ pub fn check(size: UVec2, bytes: u128, limit: u64) -> Result<(), Refusal> {
     )))
 }
 
-/// An empty vector with room for exactly this many elements.
-pub fn reserve<T>(count: u64) -> Result<Vec<T>, Refusal> {
+/// An empty vector with room for exactly this many elements, or how many bytes are not available.
+pub fn try_reserve<T>(count: u64) -> Result<Vec<T>, u64> {
     let mut vector = Vec::new();
     let is_reserved =
         usize::try_from(count).is_ok_and(|count| vector.try_reserve_exact(count).is_ok());
-    if is_reserved {
-        Ok(vector)
-    } else {
-        Err(Refusal::OutOfMemory(count.saturating_mul(size_of::<T>() as u64)))
-    }
+    if is_reserved { Ok(vector) } else { Err(count.saturating_mul(size_of::<T>() as u64)) }
+}
+
+/// The same as a refusal.
+pub fn reserve<T>(count: u64) -> Result<Vec<T>, Refusal> {
+    try_reserve(count).map_err(Refusal::OutOfMemory)
 }
 
 /// A vector of copies.

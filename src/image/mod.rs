@@ -71,6 +71,7 @@ pub use display::Display;
 pub use error::{EncodeError, ReadError, WriteError};
 #[cfg(feature = "exr")]
 pub use exr::{exr_bytes, write_exr};
+pub(crate) use memory::try_reserve;
 pub use metadata::{Metadata, ParsePartError, PartMetadata};
 pub use pfm::write_pfm;
 pub use picture::{Layers, Picture, Plane};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use glam::UVec2;
 
-use super::memory::{Refusal, mebibytes};
+use super::memory::{self, Refusal, mebibytes};
 use super::{Encoding, Image, ReadError, jpeg, pfm, png, signature};
 #[cfg(feature = "exr")]
 use super::{Metadata, Picture};
@@ -51,6 +51,15 @@ impl Image {
         let path = name.as_ref();
         let decoded = Format::of(path)?.decode(Cursor::new(bytes), bytes.len() as u64, limit);
         decoded.map_err(|refusal| refused(path, refusal))
+    }
+}
+
+impl Image {
+    /// Checks that the pixels and this many more bytes for each stay within a limit, for what is made of an image of this file.
+    pub(crate) fn check_beside(&self, path: &Path, more: u64, limit: u64) -> Result<(), ReadError> {
+        let own = memory::PIXEL * if self.variance.is_some() { 2 } else { 1 };
+        let bytes = u128::from(memory::area(self.size)) * (own + u128::from(more));
+        memory::check(self.size, bytes, limit).map_err(|refusal| refused(path, refusal))
     }
 }
 

@@ -58,12 +58,12 @@ struct AlbedoEstimator<'a> {
 impl Estimator for AlbedoEstimator<'_> {
     fn shade(&self, sampler: &dyn Sampler, wave: &mut Wave) {
         let scene = self.scene;
-        let Wave { ids, rays, hits, radiance, arena, counters, .. } = wave;
+        let Wave { ids, cone, rays, hits, radiance, arena, counters, .. } = wave;
         for (sample, (ray, hit)) in rays.iter().zip(&*hits).enumerate() {
             if !hit.is_hit() {
                 continue;
             }
-            let mut si = scene.interaction(ray, hit);
+            let mut si = scene.seen(ray, hit, cone.as_ref());
             let bsdf = scene.bsdf(hit, &mut si, arena);
             let numbers = Numbers::new(sampler, ids[sample]);
             let by_samples = own(&bsdf, si.wo(), &numbers);

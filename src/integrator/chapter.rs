@@ -48,12 +48,12 @@ struct ChapterEstimator<'a> {
 impl Estimator for ChapterEstimator<'_> {
     fn shade(&self, sampler: &dyn Sampler, wave: &mut Wave) {
         let scene = self.scene;
-        let Wave { ids, rays, hits, radiance, arena, counters, .. } = wave;
+        let Wave { ids, cone, rays, hits, radiance, arena, counters, .. } = wave;
         for (sample, (ray, hit)) in rays.iter().zip(&*hits).enumerate() {
             if !hit.is_hit() {
                 continue;
             }
-            let mut si = scene.interaction(ray, hit);
+            let mut si = scene.seen(ray, hit, cone.as_ref());
             let bsdf = scene.bsdf(hit, &mut si, arena);
             for (dimension, light) in (dimension::FIRST_LIGHT..).zip(scene.lights()) {
                 // Delta lights use no sample value.

@@ -84,8 +84,8 @@ impl LightBounds {
     pub(super) fn union(&self, other: &Self) -> Self {
         let two_sided = self.two_sided || other.two_sided;
         let mut cone = other.cone;
-        // The other side of a light with two sides is as good.
-        if other.two_sided && self.cone.axis.dot(cone.axis) < 0.0 {
+        // Both shine to two sides, so that the other side is as good.
+        if two_sided && self.cone.axis.dot(cone.axis) < 0.0 {
             cone.axis = -cone.axis;
         }
         Self {
@@ -127,5 +127,24 @@ impl Cone {
         let (sin, cos) = (normals - a.normals).sin_cos();
         let axis = a.axis * cos + turn.cross(a.axis) * sin;
         Self { axis: axis.normalize(), normals, emission }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of two sheets back to back, of which one shines to both sides, whichever is first. Caught: axes turned only if the second is the one.
+    #[test]
+    fn two_sides_of_either_light_turn_the_axis() {
+        let sheet = |axis| LightBounds::new(Vec3::ZERO, Vec3::ONE).with_normals(axis, 0.1);
+        let (one, two) = (sheet(Vec3::NEG_Y), sheet(Vec3::Y).with_two_sides());
+        for union in
+            [one.union(&two), two.union(&one), two.union(&sheet(Vec3::NEG_Y).with_two_sides())]
+        {
+            assert!(union.two_sided && union.cone.normals < 0.11, "{union:?}");
+        }
+        let apart = one.union(&sheet(Vec3::Y));
+        assert!(!apart.two_sided && apart.cone.normals > 3.0, "{apart:?}");
     }
 }

@@ -95,6 +95,8 @@ impl WideLight for SpotLight {
         // 1 - cos of the angle from the axis to -wi, without cancellation: half the square of the distance of both.
         let (zero, one) = (F::splat(0.0), F::splat(1.0));
         let height = F::splat(0.5) * (wi + Xyz::splat(self.axis)).length_squared();
+        // Straight behind it is 2, or more by rounding: within a cone of 180 degrees.
+        let height = height.min(F::splat(2.0_f32.next_down()));
         let (cone, start) = (F::splat(self.cone), F::splat(self.start));
         let delta = (cone - height) / (cone - start);
         let falloff = F::select(height.gt(start), delta * delta * (delta * delta), one);

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::bump::{bump, turn};
+use super::opacity::product;
 use super::traits::Material;
 use crate::bxdf::{Arena, Bsdf, BsdfBlock};
 use crate::interaction::{HitBlock, SurfaceInteraction};
@@ -33,9 +34,11 @@ pub struct DetailedMaterial {
 }
 
 impl DetailedMaterial {
-    /// Without details.
+    /// Without details but the holes that the material has.
     pub fn new(material: impl Material + 'static) -> Self {
-        Self { material: material.into_arc(), normals: None, bump: None, opacity: None }
+        let material = material.into_arc();
+        let opacity = material.opacity().cloned();
+        Self { material, normals: None, bump: None, opacity }
     }
 
     /// Takes shading normals from a texture, in the tangent space of the mesh: see [`turn`]. Bumps come on top of them.
@@ -48,9 +51,15 @@ impl DetailedMaterial {
         Self { bump: Some(displacement.into_handle()), ..self }
     }
 
-    /// Lets rays pass where the opacity is 0; where it is between 0 and 1, a part of them.
+    /// Lets rays pass where the opacity is 0; where it is between 0 and 1, a part of them. If the material has holes, opacities are
+    /// multiplied.
     pub fn with_opacity(self, opacity: impl Texture<f32> + 'static) -> Self {
-        Self { opacity: Some(opacity.into_handle()), ..self }
+        let opacity = opacity.into_handle();
+        let opacity = match self.material.opacity() {
+            Some(of_material) => product(of_material, &opacity),
+            None => opacity,
+        };
+        Self { opacity: Some(opacity), ..self }
     }
 
     /// The material with the details of its table in a scene file, or as it is if there are none.
@@ -65,10 +74,14 @@ impl DetailedMaterial {
         let normals = textures.find(table, &NORMALS)?;
         let bump = textures.find(table, &BUMP)?;
         let opacity = textures.find(table, &OPACITY)?;
-        Ok(match (&normals, &bump, &opacity) {
-            (None, None, None) => material,
-            _ => Arc::new(Self { material, normals, bump, opacity }),
-        })
+        if let (None, None, None) = (&normals, &bump, &opacity) {
+            return Ok(material);
+        }
+        let detailed = Self { normals, bump, ..Self::new(material) };
+        Ok(Arc::new(match opacity {
+            Some(opacity) => detailed.with_opacity(opacity),
+            None => detailed,
+        }))
     }
 
     fn detail(&self, si: &mut SurfaceInteraction) {

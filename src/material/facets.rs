@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::roughness::Roughness;
+use super::shared::Shared;
 use crate::bxdf::fresnel::Fresnel;
 use crate::bxdf::{Bsdf, Losses, MicrofacetReflection};
 use crate::interaction::SurfaceInteraction;
@@ -24,9 +25,17 @@ impl Facets {
     }
 
     pub fn with_roughness(self, roughness: Roughness) -> Self {
-        let losses = || Arc::new(Losses::of_mirrors(roughness.all()));
+        static LOSSES: Shared<Losses> = Shared::new();
+        let all = roughness.all();
+        let losses = || LOSSES.get(1.0, all, || Losses::of_mirrors(all));
         let rough = (!roughness.is_smooth()).then(|| (roughness.clone(), losses()));
         Self { rough, ..self }
+    }
+
+    /// Whether the surface is rough anywhere.
+    #[inline]
+    pub fn is_rough(&self) -> bool {
+        self.rough.is_some()
     }
 
     /// The lobe at a point, and a surface without lobes, in a frame that fits.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::medium::Medium;
 use super::roughness::{self, Roughness};
 use super::scales::{self, Scales};
+use super::shared::Shared;
 use super::traits::Material;
 use super::{Materials, Read};
 use crate::bxdf::{Arena, BoundaryLosses, Bsdf, FresnelMicrofacet, FresnelSpecular};
@@ -35,7 +36,9 @@ impl GlassMaterial {
 
     /// Makes the surface rough: frosted glass.
     pub fn with_roughness(self, roughness: Roughness) -> Self {
-        let losses = || Arc::new(BoundaryLosses::new(self.eta, roughness.all()));
+        static LOSSES: Shared<BoundaryLosses> = Shared::new();
+        let all = roughness.all();
+        let losses = || LOSSES.get(self.eta, all, || BoundaryLosses::new(self.eta, all));
         let rough = (!roughness.is_smooth()).then(|| (roughness.clone(), losses()));
         Self { rough, ..self }
     }

@@ -56,7 +56,12 @@ impl MetalMaterial {
 
     /// Makes the surface rough.
     pub fn with_roughness(self, roughness: Roughness) -> Self {
-        Self { facets: self.facets.with_roughness(roughness), ..self }
+        let facets = self.facets.with_roughness(roughness);
+        if self.reflectance.is_some() && facets.is_rough() {
+            // Now, not at the first hit of a render.
+            LazyLock::force(&MEANS);
+        }
+        Self { facets, ..self }
     }
 }
 
@@ -69,16 +74,19 @@ fn absorption(r: Spectrum) -> Spectrum {
     k.into()
 }
 
+const STEPS: usize = 256;
+
+/// What [`mean_of`] interpolates between.
+static MEANS: LazyLock<Vec<f32>> = LazyLock::new(|| {
+    let mean = |i: usize| {
+        let k = absorption(Spectrum::splat(i as f32 / STEPS as f32));
+        Fresnel::Conductor { eta: [1.0; 3], k: k.to_array() }.mean().max_component()
+    };
+    (0..=STEPS).map(mean).collect()
+});
+
 /// [`Fresnel::mean`] of metals of index 1, by the reflectance along the normal.
 fn mean_of(r: Spectrum) -> Spectrum {
-    const STEPS: usize = 256;
-    static MEANS: LazyLock<Vec<f32>> = LazyLock::new(|| {
-        let mean = |i: usize| {
-            let k = absorption(Spectrum::splat(i as f32 / STEPS as f32));
-            Fresnel::Conductor { eta: [1.0; 3], k: k.to_array() }.mean().max_component()
-        };
-        (0..=STEPS).map(mean).collect()
-    });
     let of_band = |r: f32| {
         let at = r.clamp(0.0, 1.0) * STEPS as f32;
         let first = (at as usize).min(STEPS - 1);
@@ -94,7 +102,9 @@ impl Material for MetalMaterial {
             Some(reflectance) => {
                 let r = reflectance.evaluate(si);
                 let (eta, k) = ([1.0; 3], absorption(r).to_array());
-                self.facets.of(si, Fresnel::Conductor { eta, k }, mean_of(r))
+                // Smooth surfaces have no use for it.
+                let mean = if self.facets.is_rough() { mean_of(r) } else { Spectrum::BLACK };
+                self.facets.of(si, Fresnel::Conductor { eta, k }, mean)
             }
         };
         bsdf.add(lobe);

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::opacity;
 use super::{Material, Materials, Read};
 use crate::bxdf::{Arena, Bsdf};
 use crate::interaction::SurfaceInteraction;
@@ -12,10 +13,14 @@ use crate::texture::{Texture, TextureHandle, TextureKey, Textures};
 ///
 /// The shading normal is that of the first, unless the amount is 1. A surface has at most [`MAX_LOBES`](crate::bxdf::MAX_LOBES)
 /// lobes: mixtures of mixtures that have more lose some, which is counted.
+///
+/// Where one of them lets rays pass, the mixture lets its part of them pass, and the lobes of what stops rays have its weight.
 #[derive(Clone)]
 pub struct MixMaterial {
     both: [Arc<dyn Material>; 2],
     amount: TextureHandle<f32>,
+    /// `None` if neither lets rays pass.
+    opacity: Option<TextureHandle<f32>>,
 }
 
 impl MixMaterial {
@@ -25,14 +30,25 @@ impl MixMaterial {
         second: impl Material + 'static,
         amount: impl Texture<f32> + 'static,
     ) -> Self {
-        Self { both: [first.into_arc(), second.into_arc()], amount: amount.into_handle() }
+        let (both, amount) = ([first.into_arc(), second.into_arc()], amount.into_handle());
+        let opacity = opacity::mixed([both[0].opacity(), both[1].opacity()], &amount);
+        Self { both, amount, opacity }
+    }
+
+    /// The part of the second in what stops rays.
+    fn part(&self, si: &SurfaceInteraction) -> f32 {
+        let amount = self.amount.evaluate(si).clamp(0.0, 1.0);
+        let Some(opacity) = &self.opacity else { return amount };
+        let of_second = self.both[1].opacity().map_or(1.0, |o| o.evaluate(si).clamp(0.0, 1.0));
+        let all = opacity.evaluate(si);
+        if all > 0.0 { (amount * of_second / all).min(1.0) } else { amount }
     }
 }
 
 impl Material for MixMaterial {
     fn compute_scattering<'a>(&'a self, si: &mut SurfaceInteraction, arena: &'a Arena) -> Bsdf<'a> {
         let [first, second] = &self.both;
-        let amount = self.amount.evaluate(si).clamp(0.0, 1.0);
+        let amount = self.part(si);
         if amount == 0.0 {
             return first.compute_scattering(si, arena);
         }
@@ -42,6 +58,10 @@ impl Material for MixMaterial {
         let mut of_second = si.clone();
         let second = second.compute_scattering(&mut of_second, arena);
         first.compute_scattering(si, arena).mixed(1.0 - amount, &second, amount)
+    }
+
+    fn opacity(&self) -> Option<&TextureHandle<f32>> {
+        self.opacity.as_ref()
     }
 }
 

@@ -214,7 +214,7 @@ impl MtlMaterials<'_> {
         }
     }
 
-    fn image(&self, map: &MtlMap, curve: Curve) -> Result<ImageTexture, ReadError> {
+    fn image(&self, map: &MtlMap, curve: Curve) -> Result<ImageTexture, Arc<ReadError>> {
         let [u, v, _] = map.scale;
         let [du, dv, _] = map.offset;
         let mapping = Mapping::default().scaled(Vec2::new(u, v)).moved(Vec2::new(du, dv));

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::medium::Medium;
 use super::reflectance::reflectance;
 use super::roughness::{self, Roughness};
+use super::shared::Shared;
 use super::{Material, Materials, Read};
 use crate::bxdf::fresnel::Fresnel;
 use crate::bxdf::{Arena, Bsdf, BsdfBlock, Coated, CoatedDiffuse, Losses, MicrofacetReflection};
@@ -30,15 +31,21 @@ impl PlasticMaterial {
     /// over that outside: at least 1.
     pub fn new(kd: impl Texture<Spectrum> + 'static, eta: f32) -> Self {
         let roughness = Roughness::smooth();
-        let losses = Arc::new(Losses::of_coat(eta, roughness.all()));
+        let losses = losses(eta, &roughness);
         Self { kd: kd.into_handle(), eta, roughness, losses }
     }
 
     /// Makes the coat rough.
     pub fn with_roughness(self, roughness: Roughness) -> Self {
-        let losses = Arc::new(Losses::of_coat(self.eta, roughness.all()));
+        let losses = losses(self.eta, &roughness);
         Self { roughness, losses, ..self }
     }
+}
+
+fn losses(eta: f32, roughness: &Roughness) -> Arc<Losses> {
+    static LOSSES: Shared<Losses> = Shared::new();
+    let all = roughness.all();
+    LOSSES.get(eta, all, || Losses::of_coat(eta, all))
 }
 
 impl Material for PlasticMaterial {

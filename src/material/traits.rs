@@ -11,29 +11,37 @@ use crate::texture::{TextureHandle, Textures};
 /// Function that reads a kind of material from a scene file.
 pub type Read = fn(&Table, &Textures, &Materials) -> Result<Arc<dyn Material>, Fault>;
 
-/// The materials of a scene file that stand above the one that is read, by name.
+/// What a material adds to the [cost](Table::cost) of a table: lobes take more stack than values of textures.
+const COST: u32 = 4;
+
+/// The materials of a scene file that stand above the one that is read, by name, with their costs.
 #[derive(Clone, Default)]
-pub struct Materials(BTreeMap<String, Arc<dyn Material>>);
+pub struct Materials(BTreeMap<String, (Arc<dyn Material>, u32)>);
 
 impl Materials {
     /// Adds a material, or replaces the one of that name.
     pub fn add(&mut self, name: impl Into<String>, material: Arc<dyn Material>) {
-        self.0.insert(name.into(), material);
+        self.add_costing(name, material, 0);
+    }
+
+    /// The same with the [cost](Table::cost) of the table that it was read from, which tables that name it are charged.
+    pub fn add_costing(&mut self, name: impl Into<String>, material: Arc<dyn Material>, cost: u32) {
+        self.0.insert(name.into(), (material, cost.saturating_add(COST)));
     }
 
     /// The material that the key's value names.
     ///
     /// # Errors
-    /// If there is no material of that name; and those of [`Table::get`].
+    /// If there is no material of that name; and those of [`Table::get`] and [`Table::charge`].
     pub fn get(&self, table: &Table, key: &Key<String>) -> Result<Arc<dyn Material>, Fault> {
         let name = table.get(key)?;
-        self.0.get(&name).cloned().ok_or_else(|| {
+        let mark = table.mark(key);
+        let (material, cost) = self.0.get(&name).ok_or_else(|| {
             let known = self.0.keys().map(String::as_str);
-            Fault {
-                mark: table.mark(key),
-                problem: Problem::unknown_name("earlier material", &name, known),
-            }
-        })
+            Fault { mark, problem: Problem::unknown_name("earlier material", &name, known) }
+        })?;
+        table.charge(mark, *cost)?;
+        Ok(material.clone())
     }
 }
 
@@ -117,7 +125,8 @@ pub trait Material: Send + Sync {
     }
 
     /// The fraction of rays that the surface stops, if some pass: see
-    /// [`DetailedMaterial::with_opacity`](super::DetailedMaterial::with_opacity). Scenes without such materials pay nothing.
+    /// [`DetailedMaterial::with_opacity`](super::DetailedMaterial::with_opacity). Scenes without such materials pay nothing. A material
+    /// around another one has to forward this, or its surface has no holes.
     fn opacity(&self) -> Option<&TextureHandle<f32>> {
         None
     }

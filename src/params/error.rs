@@ -68,6 +68,16 @@ pub enum Problem {
         /// Description of the values it can have.
         expected: String,
     },
+    /// References to what refers to others, and so on, to more than can be evaluated.
+    #[error("{table} refers to {cost} evaluations at each point, above the limit of {most}")]
+    Costly {
+        /// The table, as messages call it.
+        table: String,
+        /// Number of evaluations.
+        cost: u32,
+        /// The limit.
+        most: u32,
+    },
     /// A mistake in the program: a kind reads a key that is not in [`Kind::keys`](super::Kind::keys).
     #[error("{table} is read by a kind that does not declare its key `{key}`")]
     Undeclared {

@@ -1,6 +1,6 @@
 //! [`Document`], and [`Table`], one table of it, which is read key by key.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -32,6 +32,7 @@ pub struct Table<'a> {
     document: &'a Document,
     keys: Vec<&'static str>,
     read: RefCell<Vec<&'static str>>,
+    cost: Cell<u32>,
 }
 
 /// Replacement for tables that are left out.
@@ -66,7 +67,30 @@ impl Document {
 
 impl<'a> Table<'a> {
     fn new(document: &'a Document, name: String, title: String, node: &'a Node) -> Self {
-        Self { name, title, node, document, keys: Vec::new(), read: RefCell::default() }
+        let (keys, read, cost) = (Vec::new(), RefCell::default(), Cell::default());
+        Self { name, title, node, document, keys, read, cost }
+    }
+
+    /// The largest [`cost`](Self::cost) of a table. Tables that refer to others twice would double it with each, and evaluation is recursive.
+    pub const MAX_COST: u32 = 1000;
+
+    /// Adds the cost of what the value at `mark` names, in evaluations at each point.
+    ///
+    /// # Errors
+    /// If the sum is above [`MAX_COST`](Self::MAX_COST).
+    pub fn charge(&self, mark: Mark, cost: u32) -> Result<(), Fault> {
+        let cost = self.cost.get().saturating_add(cost);
+        self.cost.set(cost);
+        if cost <= Self::MAX_COST {
+            return Ok(());
+        }
+        let (table, most) = (self.title.clone(), Self::MAX_COST);
+        Err(Fault { mark, problem: Problem::Costly { table, cost, most } })
+    }
+
+    /// The sum of what was [charged](Self::charge).
+    pub fn cost(&self) -> u32 {
+        self.cost.get()
     }
 
     /// The table with this key, or an empty one.

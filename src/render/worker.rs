@@ -102,7 +102,7 @@ impl<'a> Worker<'a> {
             if !hit.is_hit() {
                 continue;
             }
-            let mut si = scene.interaction(ray, hit);
+            let mut si = scene.seen(ray, hit, wave.cone.as_ref());
             let bsdf = scene.bsdf(hit, &mut si, &wave.arena);
             let uc = sampler.get_1d(*id, dimension::ALBEDO_EVENT);
             let u = sampler.get_2d(*id, dimension::ALBEDO);

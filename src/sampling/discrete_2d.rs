@@ -1,5 +1,7 @@
 //! [`Discrete2d`]: a discrete distribution over the cells of a grid.
 
+use std::collections::TryReserveError;
+
 use glam::{DVec2, UVec2, Vec2};
 
 use crate::geometry::float::ONE_MINUS_EPSILON;
@@ -22,13 +24,14 @@ const UNITS: u32 = 1 << 31;
 ///
 /// let weights = [[1.0, 0.0, 1.0], [0.0, 0.0, 2.0]];
 /// let weight = |column: u32, row: u32| weights[row as usize][column as usize];
-/// let grid = Discrete2d::new(UVec2::new(3, 2), weight).unwrap();
+/// let grid = Discrete2d::new(UVec2::new(3, 2), weight)?.unwrap();
 /// let Cell { cell, within, probability } = grid.sample(Vec2::new(0.75, 0.25));
 /// // u.x stands for a place from left to right, u.y for one from top to bottom.
 /// assert_eq!((cell, within), (UVec2::new(2, 0), DVec2::new(0.5, 0.5)));
 /// assert!((probability - 0.25).abs() < 1e-8);
 /// assert_eq!(grid.probability(UVec2::new(1, 0)), 0.0);
 /// assert_eq!(grid.inverse(cell, within), Vec2::new(0.75, 0.25));
+/// # Ok::<(), std::collections::TryReserveError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Discrete2d {
@@ -54,12 +57,22 @@ impl Discrete2d {
     /// The distribution over a grid of `size` columns and rows, with these weights by column and row, each asked for once. A
     /// weight that is negative or NaN counts as zero. `None` if the sum of the weights is zero or infinite.
     ///
+    /// # Errors
+    /// If memory is not available.
+    ///
     /// # Panics
     /// If there are 2³⁰ columns or rows or more.
-    pub fn new(size: UVec2, mut weight: impl FnMut(u32, u32) -> f64) -> Option<Self> {
+    pub fn new(
+        size: UVec2,
+        mut weight: impl FnMut(u32, u32) -> f64,
+    ) -> Result<Option<Self>, TryReserveError> {
         assert!(size.max_element() < UNITS / 2, "a grid of {size} cells");
         let columns = size.x as usize;
-        let mut cells = vec![0; columns * size.y as usize];
+        // Of 64 bits: what is too much is not available.
+        let count = columns.saturating_mul(size.y as usize);
+        let mut cells = Vec::new();
+        cells.try_reserve_exact(count)?;
+        cells.resize(count, 0);
         let mut of_row = vec![0.0; columns];
         let mut of_rows = vec![0.0; size.y as usize];
         for (row, total) in of_rows.iter_mut().enumerate() {
@@ -70,11 +83,8 @@ impl Discrete2d {
         }
         let mut rows = vec![0; of_rows.len()];
         let sum = share_out(&of_rows, &mut rows);
-        (sum > 0.0 && sum < f64::INFINITY).then(|| Self {
-            columns,
-            rows: rows.into(),
-            cells: cells.into(),
-        })
+        let is_distribution = sum > 0.0 && sum < f64::INFINITY;
+        Ok(is_distribution.then(|| Self { columns, rows: rows.into(), cells: cells.into() }))
     }
 
     /// The cell that u in `[0, 1)²` selects: u.x the column, u.y the row.

@@ -173,10 +173,6 @@ impl SceneBuilder {
             shapes.push(Shape { name, material, materials, light, copy_of });
             meshes.push(mesh);
         }
-        let triangles = meshes.iter().map(|mesh| mesh.indices.len()).sum();
-        if triangles > Accel::MAX_TRIANGLES {
-            return Err(SceneError::TooManyTriangles(triangles));
-        }
         let start = Stopwatch::start();
         let accel = Accel::build_with_instances(self.instruction_set, &meshes, &instances);
         Ok(Scene {

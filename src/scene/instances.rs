@@ -8,7 +8,7 @@ use super::error::SceneError;
 use super::new_shape::{NewEmission, NewShape};
 use crate::accel::Accel;
 use crate::geometry::float::MAX_COORDINATE;
-use crate::shape::Instance;
+use crate::shape::{Instance, TriangleMesh};
 
 /// An instance, before its scene is built.
 pub(super) struct NewInstance {
@@ -33,6 +33,8 @@ pub(super) fn instances(
     }
     let (mut names, mut instances) = (Vec::new(), Vec::new());
     let mut boxes = HashMap::new();
+    let mut triangles: usize = shapes.iter().map(|shape| shape.mesh.indices.len()).sum();
+    let mut copies = Vec::new();
     for NewInstance { name, shape, transform } in all {
         let wrong = |reason: String| SceneError::Instance { instance: name.clone(), reason };
         let Some(&index) = by_name.get(&shape) else {
@@ -54,13 +56,33 @@ pub(super) fn instances(
                 if let Some(NewEmission::Light(_)) = original.emission {
                     return Err(wrong("its shape has a light of its own kind".to_owned()));
                 }
-                let mut copy = NewShape { name, copy_of: Some(index), ..original.clone() };
-                copy.mesh.transform(&transform);
-                shapes.push(copy);
+                triangles += original.mesh.indices.len();
+                copies.push((name, index, transform));
             }
         }
     }
+    // Before memory is taken for them.
+    if triangles > Accel::MAX_TRIANGLES {
+        return Err(SceneError::TooManyTriangles(triangles));
+    }
+    for (name, index, transform) in copies {
+        let NewShape { mesh, material, emission, .. } = &shapes[index];
+        let (mesh, material) = (copied(mesh, &transform), material.clone());
+        let emission = emission.clone();
+        shapes.push(NewShape { name, mesh, material, emission, copy_of: Some(index) });
+    }
     Ok((names, instances))
+}
+
+/// A mesh in another place, without more vertices than triangles can have: these are what is counted.
+fn copied(mesh: &TriangleMesh, transform: &Affine3A) -> TriangleMesh {
+    let mut copy = if mesh.positions.len() > 3 * mesh.indices.len() {
+        mesh.part(&(0..mesh.indices.len() as u32).collect::<Vec<_>>())
+    } else {
+        mesh.clone()
+    };
+    copy.transform(transform);
+    copy
 }
 
 /// Corners of the box around some points.

@@ -191,6 +191,20 @@ impl Scene {
         SurfaceInteraction::on_shape(mesh, place, -ray.d)
     }
 
+    /// The same as a camera with this cone sees it, so that textures are filtered.
+    ///
+    /// # Panics
+    /// Like [`Scene::interaction`].
+    pub(crate) fn seen<'a>(
+        &'a self,
+        ray: &Ray,
+        hit: &Hit,
+        cone: Option<&'a PixelCone>,
+    ) -> SurfaceInteraction<'a> {
+        let si = self.interaction(ray, hit);
+        if let Some(cone) = cone { si.seen_by(cone) } else { si }
+    }
+
     /// The lobes at a hit. The material may replace the shading geometry of `si`.
     ///
     /// # Panics

@@ -18,7 +18,7 @@ use crate::sampling::SamplerKind;
 use crate::scene::{Emission, FilmSettings, Scene, SceneBuilder, SceneError, View};
 use crate::shape::{Load, ObjMesh, ObjReport};
 use crate::spectrum::Spectrum;
-use crate::texture::{TextureHandle, Textures};
+use crate::texture::{self, TextureHandle, Textures};
 
 /// A scene before its meshes are loaded. Lists are in the order of the file.
 pub struct Description {
@@ -67,16 +67,20 @@ pub fn describe(document: &Document) -> Result<Description, Fault> {
     let settings = settings(document)?;
     let mut textures = Textures::default();
     for (name, table) in root.tables(sections::TEXTURE.key)? {
-        let texture = sections::TEXTURE.read(table, |kind, table| (kind.read)(table, &textures))?;
-        textures.add(name, texture);
+        let read = |kind: &Kind<texture::Read>, table: &Table| {
+            Ok(((kind.read)(table, &textures)?, table.cost()))
+        };
+        let (texture, cost) = sections::TEXTURE.read(table, read)?;
+        textures.add_costing(name, texture, cost);
     }
     let (mut materials, mut known) = (Vec::new(), Materials::default());
     for (name, table) in root.tables(sections::MATERIAL.key)? {
         let read = |kind: &Kind<material::Read>, table: &Table| {
-            DetailedMaterial::read(table, &textures, (kind.read)(table, &textures, &known)?)
+            let material = (kind.read)(table, &textures, &known)?;
+            Ok((DetailedMaterial::read(table, &textures, material)?, table.cost()))
         };
-        let material = sections::MATERIAL.read(table, read)?;
-        known.add(name, material.clone());
+        let (material, cost) = sections::MATERIAL.read(table, read)?;
+        known.add_costing(name, material.clone(), cost);
         materials.push((name.to_owned(), material));
     }
     let light =

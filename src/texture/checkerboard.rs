@@ -4,8 +4,8 @@ use std::ops::{Add, Mul};
 
 use glam::Vec2;
 
+use super::any::Pair;
 use super::mapping::{self, Mapping};
-use super::read::Pair;
 use super::value::Constant;
 use super::{AnyTexture, Read, Texture, TextureHandle, TextureKey, Textures};
 use crate::interaction::SurfaceInteraction;
@@ -57,7 +57,12 @@ fn fraction(center: Vec2, size: Vec2) -> f32 {
 
 /// The fraction of odd units in an interval of this length around a number.
 fn odd(center: f32, length: f32) -> f32 {
-    let (x, length) = (f64::from(center), f64::from(length));
+    // Of two units, exactly.
+    let (x, length) = (f64::from(center).rem_euclid(2.0), f64::from(length));
+    // Where f32 has overflowed, or that many units are as many odd ones.
+    if x.is_nan() || length >= 1e30 {
+        return 0.5;
+    }
     // Far away, f32 no longer tells odd from even; nor is the edge of a unit hit by chance.
     if length.is_nan() || length < 1e-6 {
         return x.floor().rem_euclid(2.0) as f32;
@@ -127,5 +132,24 @@ mod tests {
             [odd(0.5, 0.0), odd(1.5, 0.0), odd(-0.5, 0.0), odd(-1.5, 0.0)],
             [0.0, 1.0, 1.0, 0.0]
         );
+    }
+
+    /// However far away and large, they are fractions; of what is not finite, the mean.
+    ///
+    /// Caught: sums far away, which lose the length; no mean of infinite lengths, and of points that are not finite.
+    #[test]
+    fn fractions_stay_between_none_and_all() {
+        let far = [0.0, 0.3, 1e6, 1e10, 3e17, -1e20, 1e30, f32::MAX];
+        for center in far {
+            for length in [0.0, 1e-3, 1.0, 2.5, 1e4, 1e12, 1e25, 1e30, f32::MAX] {
+                let found = odd(center, length);
+                assert!((0.0..=1.0).contains(&found), "{center}, {length}: {found}");
+            }
+            assert_eq!(odd(center, f32::INFINITY), 0.5);
+        }
+        assert_eq!([odd(1e17, 3.0), odd(1.5, 3.0)], [odd(0.0, 3.0), 1.0 / 3.0]);
+        for center in [f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
+            assert_eq!([odd(center, 0.0), odd(center, 1.0)], [0.5; 2], "{center}");
+        }
     }
 }

@@ -57,7 +57,8 @@ impl Choice for Minification {
 /// let pixels = vec![Spectrum::WHITE, Spectrum::BLACK];
 /// let size = UVec2::new(2, 1);
 /// let image = Image { size, pixels, variance: None, degrees_of_freedom: None, encoding: Encoding::Srgb };
-/// let stripes = ImageTexture::new(Texels::new(&image, Curve::Srgb)).with_wrap(Wrap::Mirror);
+/// let stripes = ImageTexture::new(Texels::new(&image, Curve::Srgb)?).with_wrap(Wrap::Mirror);
+/// # Ok::<(), lobe::texture::TexelsError>(())
 /// ```
 #[derive(Clone)]
 pub struct ImageTexture {
@@ -100,10 +101,15 @@ impl ImageTexture {
         OfChannel { colors: self, channel }
     }
 
-    /// Chooses what stands for many pixels that fall into one of the picture.
+    /// Chooses what stands for many pixels that fall into one of the picture. Nothing is filtered if memory for smaller images is not available:
+    /// [`Texels::make_smaller`] tells.
     pub fn with_minification(self, minification: Minification) -> Self {
         if minification == Minification::Anisotropic {
-            self.texels.smaller();
+            let made = self.texels.make_smaller();
+            return Self {
+                minification: made.map_or(Minification::None, |()| minification),
+                ..self
+            };
         }
         Self { minification, ..self }
     }
@@ -276,13 +282,17 @@ fn read(table: &Table, textures: &Textures) -> Result<AnyTexture, Fault> {
         Values::Colors => Curve::Srgb,
         Values::Numbers(_) => Curve::Linear,
     });
-    let texels =
-        textures.image(&file, curve).map_err(|error| Fault::new(table.mark(&FILE), error))?;
+    let minification = table.get(&MINIFICATION)?;
+    let texels = match minification {
+        Minification::None => textures.image(&file, curve),
+        Minification::Anisotropic => textures.image_with_smaller(&file, curve),
+    };
+    let texels = texels.map_err(|error| Fault::new(table.mark(&FILE), error))?;
     let image = ImageTexture::new(texels)
         .with_mapping(mapping::read(table)?)
         .with_wrap(table.get(&WRAP)?)
         .with_magnification(table.get(&MAGNIFICATION)?)
-        .with_minification(table.get(&MINIFICATION)?);
+        .with_minification(minification);
     Ok(match values {
         Values::Colors => AnyTexture::Color(image.into_handle()),
         Values::Numbers(channel) => AnyTexture::Number(image.channel(channel).into_handle()),

@@ -1,5 +1,6 @@
 //! Textures: values that may vary over a surface.
 
+mod any;
 mod channel;
 mod checkerboard;
 mod constant;
@@ -10,10 +11,12 @@ mod place;
 mod product;
 mod read;
 mod texels;
+mod texels_error;
 mod traits;
 mod value;
 mod wrap;
 
+pub use any::{AnyTexture, TextureValue};
 pub use channel::Channel;
 pub use checkerboard::CheckerboardTexture;
 pub use constant::ConstantTexture;
@@ -21,8 +24,9 @@ pub use image::{ImageTexture, Magnification, Minification};
 pub use mapping::{Mapping, Projection};
 pub use mix::MixTexture;
 pub use product::ProductTexture;
-pub use read::{AnyTexture, Read, TextureKey, TextureValue, Textures};
+pub use read::{Read, TextureKey, Textures};
 pub use texels::{Curve, Texels};
+pub use texels_error::TexelsError;
 pub use traits::{Texture, TextureHandle};
 pub use wrap::Wrap;
 

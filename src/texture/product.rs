@@ -2,7 +2,7 @@
 
 use std::ops::Mul;
 
-use super::read::Pair;
+use super::any::Pair;
 use super::value::Constant;
 use super::{AnyTexture, Read, Texture, TextureHandle, TextureKey, Textures};
 use crate::interaction::SurfaceInteraction;

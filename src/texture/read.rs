@@ -5,84 +5,16 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::any::{AnyTexture, Pair, TextureValue};
 use super::texels::{Curve, Texels};
+use super::texels_error::TexelsError;
 use super::traits::{Texture, TextureHandle};
 use super::value::Constant;
-use crate::image::{Image, ReadError};
-use crate::interaction::SurfaceInteraction;
+use crate::image::{Image, ImageFile, ReadError};
 use crate::params::{AnyKey, Fault, Key, Mark, Param, Problem, Table, Value, quoted};
-use crate::spectrum::Spectrum;
 
 /// Function that reads a kind of texture from a scene file. It may use textures defined earlier.
 pub type Read = fn(&Table, &Textures) -> Result<AnyTexture, Fault>;
-
-/// A texture whose value type is known at run time only.
-#[derive(Clone)]
-#[non_exhaustive]
-pub enum AnyTexture {
-    /// With values of type `f32`.
-    Number(TextureHandle<f32>),
-    /// With values of type [`Spectrum`].
-    Color(TextureHandle<Spectrum>),
-}
-
-impl AnyTexture {
-    /// With numbers as greys.
-    fn into_color(self) -> TextureHandle<Spectrum> {
-        match self {
-            Self::Color(texture) => texture,
-            Self::Number(TextureHandle::Constant(value)) => Spectrum::splat(value).everywhere(),
-            Self::Number(texture) => {
-                let grey = move |si: &SurfaceInteraction| Spectrum::splat(texture.evaluate(si));
-                grey.into_handle()
-            }
-        }
-    }
-}
-
-impl From<Constant> for AnyTexture {
-    fn from(constant: Constant) -> Self {
-        match constant {
-            Constant::Number(value) => Self::Number(value.everywhere()),
-            Constant::Color(value) => Self::Color(value.everywhere()),
-        }
-    }
-}
-
-/// Two textures with values of one type.
-pub(super) enum Pair {
-    Numbers([TextureHandle<f32>; 2]),
-    Colors([TextureHandle<Spectrum>; 2]),
-}
-
-/// A type of values that textures of scene files can have.
-pub trait TextureValue: Param + Copy {
-    /// The texture, if its values have this type or become it: numbers are greys.
-    fn of(texture: &AnyTexture) -> Option<TextureHandle<Self>>;
-
-    /// A constant texture of this value.
-    fn everywhere(self) -> TextureHandle<Self>;
-}
-
-impl TextureValue for f32 {
-    fn of(texture: &AnyTexture) -> Option<TextureHandle<Self>> {
-        if let AnyTexture::Number(texture) = texture { Some(texture.clone()) } else { None }
-    }
-
-    fn everywhere(self) -> TextureHandle<Self> {
-        TextureHandle::Constant(self)
-    }
-}
-
-impl TextureValue for Spectrum {
-    fn of(texture: &AnyTexture) -> Option<TextureHandle<Self>> {
-        Some(texture.clone().into_color())
-    }
-
-    fn everywhere(self) -> TextureHandle<Self> {
-        TextureHandle::Constant(self)
-    }
-}
 
 /// A key whose value is the name of a texture, or a constant. Range and default apply to the constant.
 ///
@@ -130,46 +62,77 @@ impl<T: Param> AnyKey for TextureKey<T> {
 }
 
 /// The textures of a scene, by name, and the images that they share.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub struct Textures {
-    named: BTreeMap<String, AnyTexture>,
+    /// Each with its cost: how many textures its value asks at a point, itself included; 0 if it is constant.
+    named: BTreeMap<String, (AnyTexture, u32)>,
     images: Arc<Mutex<Images>>,
+    /// Bytes that each image may take.
+    limit: u64,
 }
 
-/// Images that were decoded, by canonical path and curve.
-type Images = BTreeMap<(PathBuf, Curve), Arc<Texels>>;
+/// Images that were decoded, or could not be, by canonical path and curve.
+type Images = BTreeMap<(PathBuf, Curve), Result<Arc<Texels>, Arc<ReadError>>>;
+
+impl Default for Textures {
+    /// None yet, and images of up to [`Image::DEFAULT_LIMIT`] bytes.
+    fn default() -> Self {
+        Self { named: BTreeMap::new(), images: Arc::default(), limit: Image::DEFAULT_LIMIT }
+    }
+}
 
 impl Textures {
-    /// Adds a texture, or replaces the one of that name.
-    pub fn add(&mut self, name: impl Into<String>, texture: AnyTexture) {
-        self.named.insert(name.into(), texture);
+    /// Chooses how many bytes of memory each image may take from now on: as it is decoded, and what is made of it for lookups.
+    pub fn with_limit(self, limit: u64) -> Self {
+        Self { limit, ..self }
     }
 
-    /// The pixels of an image file, which is read once for each curve, by whatever path.
+    /// Adds a texture, or replaces the one of that name.
+    pub fn add(&mut self, name: impl Into<String>, texture: AnyTexture) {
+        self.add_costing(name, texture, 0);
+    }
+
+    /// The same with the [cost](Table::cost) of the table that it was read from, which tables that name it are charged.
+    pub fn add_costing(&mut self, name: impl Into<String>, texture: AnyTexture, cost: u32) {
+        let cost = if texture.is_constant() { 0 } else { cost.saturating_add(1) };
+        self.named.insert(name.into(), (texture, cost));
+    }
+
+    /// The pixels of an image file, which is read once for each curve, by whatever path, even if it cannot be used.
     ///
     /// # Errors
-    /// Those of [`Image::read`], and if a value is negative or not finite.
-    pub fn image(&self, file: &Path, curve: Curve) -> Result<Arc<Texels>, ReadError> {
+    /// Those of [`Image::read`] and [`Texels::new`], and if both together take more than the limit.
+    pub fn image(&self, file: &Path, curve: Curve) -> Result<Arc<Texels>, Arc<ReadError>> {
         let mut images = self.images.lock().unwrap_or_else(PoisonError::into_inner);
         let key = (fs::canonicalize(file).unwrap_or_else(|_| file.to_owned()), curve);
         if let Some(known) = images.get(&key) {
-            return Ok(known.clone());
+            return known.clone();
         }
-        let image = Image::read(file)?;
-        Texels::check(&image)
-            .map_err(|reason| ReadError::Contents { path: file.to_owned(), reason })?;
-        let texels = Arc::new(Texels::new(&image, curve));
-        images.insert(key, texels.clone());
+        let read = file_of_texels(file, curve, self.limit);
+        let read = read.map(Arc::new).map_err(Arc::new);
+        images.insert(key, read.clone());
+        read
+    }
+
+    /// The same with smaller images, for filtering.
+    ///
+    /// # Errors
+    /// Those of [`Textures::image`] and [`Texels::make_smaller`].
+    pub fn image_with_smaller(
+        &self,
+        file: &Path,
+        curve: Curve,
+    ) -> Result<Arc<Texels>, Arc<ReadError>> {
+        let texels = self.image(file, curve)?;
+        texels.make_smaller().map_err(|error| Arc::new(unfit(file, error)))?;
         Ok(texels)
     }
 
     /// All images that were read: the file, what its codes mean, and the pixels.
     pub fn images(&self) -> Vec<(PathBuf, Curve, Arc<Texels>)> {
         let images = self.images.lock().unwrap_or_else(PoisonError::into_inner);
-        images
-            .iter()
-            .map(|((file, curve), texels)| (file.clone(), *curve, texels.clone()))
-            .collect()
+        let read = images.iter().filter_map(|(key, texels)| Some((key, texels.as_ref().ok()?)));
+        read.map(|((file, curve), texels)| (file.clone(), *curve, texels.clone())).collect()
     }
 
     /// The texture that the key's value names, or a constant texture if the value is a number or a colour.
@@ -224,17 +187,20 @@ impl Textures {
     fn any(&self, table: &Table, key: &TextureKey<Constant>) -> Result<AnyTexture, Fault> {
         let Some(node) = table.value(key)? else { return table.get(&key.0).map(Constant::into) };
         match &node.value {
-            Value::Text(name) => self.by_name(name, node.mark).cloned(),
+            Value::Text(name) => self.by_name(table, name, node.mark).cloned(),
             Value::Number(_) | Value::Array(_) => table.get(&key.0).map(Constant::into),
             other => Err(table.unfit(key, node, other.to_string(), key.expected())),
         }
     }
 
-    fn by_name(&self, name: &str, mark: Mark) -> Result<&AnyTexture, Fault> {
-        self.named.get(name).ok_or_else(|| {
+    /// The texture that `table` names at `mark`.
+    fn by_name(&self, table: &Table, name: &str, mark: Mark) -> Result<&AnyTexture, Fault> {
+        let (texture, cost) = self.named.get(name).ok_or_else(|| {
             let known = self.named.keys().map(String::as_str);
             Fault { mark, problem: Problem::unknown_name("texture", name, known) }
-        })
+        })?;
+        table.charge(mark, *cost)?;
+        Ok(texture)
     }
 
     /// The texture that the key's value names. `None` if the key is missing or its value is a constant. A texture
@@ -251,7 +217,7 @@ impl Textures {
             Value::Number(_) | Value::Array(_) => return Ok(None),
             other => return Err(table.unfit(key, node, other.to_string(), key.expected())),
         };
-        let texture = self.by_name(name, node.mark)?;
+        let texture = self.by_name(table, name, node.mark)?;
         let found = T::of(texture);
         // Only constant textures can be checked against the range here.
         let value = found.as_ref().and_then(|found| found.constant()?.to_value());
@@ -267,6 +233,22 @@ impl Textures {
             };
             table.unfit(key, node, found, constant.expected() + cure)
         })
+    }
+}
+
+/// Pixels of a file, within a limit of bytes.
+fn file_of_texels(file: &Path, curve: Curve, limit: u64) -> Result<Texels, ReadError> {
+    let image = ImageFile::open(file, limit)?.decode()?;
+    // Smaller images take less than the image itself, which is dropped before.
+    image.check_beside(file, Texels::BYTES, limit)?;
+    Texels::new(&image, curve).map_err(|error| unfit(file, error))
+}
+
+fn unfit(file: &Path, error: TexelsError) -> ReadError {
+    let path = file.to_owned();
+    match error {
+        TexelsError::OutOfMemory(bytes) => ReadError::OutOfMemory { path, bytes },
+        _ => ReadError::Contents { path, reason: error.to_string() },
     }
 }
 

@@ -5,7 +5,8 @@ use std::sync::OnceLock;
 use arrayvec::ArrayVec;
 use glam::UVec2;
 
-use crate::image::{Display, Encoding, Image};
+use super::texels_error::TexelsError;
+use crate::image::{Display, Encoding, Image, try_reserve};
 use crate::params::Choice;
 use crate::spectrum::Spectrum;
 
@@ -78,7 +79,7 @@ fn covered(many: u32, few: u32) -> Vec<ArrayVec<(u32, f32), 3>> {
 }
 
 /// Pixels in tiles, row by row; those beyond the edges are not looked up.
-fn tiled<T: Copy>(size: UVec2, pixel: impl Fn(usize) -> T) -> Vec<Tile<T>> {
+fn tiled<T: Copy>(size: UVec2, pixel: impl Fn(usize) -> T) -> Result<Vec<Tile<T>>, TexelsError> {
     let [width, height] = [size.x, size.y].map(|x| x as usize);
     let tile = |tile: usize| {
         let (tile_y, tile_x) = (tile / width.div_ceil(4), tile % width.div_ceil(4));
@@ -87,12 +88,35 @@ fn tiled<T: Copy>(size: UVec2, pixel: impl Fn(usize) -> T) -> Vec<Tile<T>> {
             pixel(y.min(height - 1) * width + x.min(width - 1))
         }))
     };
-    (0..width.div_ceil(4) * height.div_ceil(4)).map(tile).collect()
+    let count = width.div_ceil(4) * height.div_ceil(4);
+    let mut tiles = try_reserve(count as u64).map_err(TexelsError::OutOfMemory)?;
+    tiles.extend((0..count).map(tile));
+    Ok(tiles)
+}
+
+/// A pixel's place by its index.
+fn place(size: UVec2, index: usize) -> UVec2 {
+    let width = size.x as usize;
+    UVec2::new((index % width) as u32, (index / width) as u32)
 }
 
 impl Texels {
+    /// Bytes of a pixel, at most.
+    pub(crate) const BYTES: u64 = 12;
+
     /// Of an image. `curve` holds for files with codes; those with radiance are linear.
-    pub fn new(image: &Image, curve: Curve) -> Self {
+    ///
+    /// # Errors
+    /// If the image has not one pixel for each place, and at least one; if a value is negative or not finite; or if memory is not available.
+    pub fn new(image: &Image, curve: Curve) -> Result<Self, TexelsError> {
+        let Image { size, ref pixels, .. } = *image;
+        let area = u64::from(size.x) * u64::from(size.y);
+        if pixels.len() as u64 != area || area == 0 {
+            return Err(TexelsError::Size { size, pixels: pixels.len() });
+        }
+        if let Some(index) = pixels.iter().position(|pixel| !pixel.is_valid()) {
+            return Err(TexelsError::Pixel { at: place(size, index), value: pixels[index] });
+        }
         let is_linear = image.encoding == Encoding::Linear;
         // Of what is no code, one that stands for another number.
         let code = |x: f32| (x * 255.0 + 0.5) as u8;
@@ -104,36 +128,48 @@ impl Texels {
                 [r, g, b, 0]
             };
             let meanings = std::array::from_fn(|code| curve.decoded(code as f64 / 255.0));
-            Pixels::Codes(tiled(image.size, codes), Box::new(meanings))
+            Pixels::Codes(tiled(size, codes)?, Box::new(meanings))
         } else {
             let curve = if is_linear { Curve::Linear } else { curve };
             let value = |i: usize| image.pixels[i].to_array().map(|code| curve.decode(code));
-            Pixels::Values(tiled(image.size, value))
+            Pixels::Values(tiled(size, value)?)
         };
-        Self::of(image.size, pixels)
+        Ok(Self::of(size, pixels))
     }
 
     fn of(size: UVec2, pixels: Pixels) -> Self {
         Self { size, tiles: size.x.div_ceil(4), pixels, smaller: OnceLock::new() }
     }
 
-    /// The image at half its size, a quarter, and so on to a single pixel, which are made when they are first asked for. Pixels are means over the
-    /// area that they cover.
+    /// The image at half its size, a quarter, and so on to a single pixel. Pixels are means over the area that they cover. Empty if they have not been
+    /// [made](Self::make_smaller).
     pub(super) fn smaller(&self) -> &[Self] {
-        self.smaller.get_or_init(|| {
-            let mut all: Vec<Self> = Vec::new();
-            loop {
-                let last = all.last().unwrap_or(self);
-                if last.size == UVec2::ONE {
-                    return all;
-                }
-                all.push(last.halved());
+        self.smaller.get().map_or(&[], |all| all)
+    }
+
+    /// Makes the smaller images that filtering takes, once: together 16 bytes for each four pixels.
+    ///
+    /// # Errors
+    /// If memory is not available.
+    pub fn make_smaller(&self) -> Result<(), TexelsError> {
+        if self.smaller.get().is_some() {
+            return Ok(());
+        }
+        let mut all: Vec<Self> = Vec::new();
+        loop {
+            let last = all.last().unwrap_or(self);
+            if last.size == UVec2::ONE {
+                break;
             }
-        })
+            all.push(last.halved()?);
+        }
+        // Another thread may have made the same.
+        self.smaller.get_or_init(|| all);
+        Ok(())
     }
 
     /// At half the size, rounded down but at least 1.
-    fn halved(&self) -> Self {
+    fn halved(&self) -> Result<Self, TexelsError> {
         let size = (self.size / 2).max(UVec2::ONE);
         let (columns, rows) = (covered(self.size.x, size.x), covered(self.size.y, size.y));
         let value = |i: usize| {
@@ -146,22 +182,7 @@ impl Texels {
             }
             sum.to_array()
         };
-        Self::of(size, Pixels::Values(tiled(size, value)))
-    }
-
-    /// What keeps an image from being a texture: a value that is negative or not finite.
-    pub(super) fn check(image: &Image) -> Result<(), String> {
-        let is_sound =
-            |pixel: &Spectrum| pixel.to_array().iter().all(|x| x.is_finite() && *x >= 0.0);
-        let Some(index) = image.pixels.iter().position(|pixel| !is_sound(pixel)) else {
-            return Ok(());
-        };
-        let width = image.size.x as usize;
-        let (x, y, found) = (index % width, index / width, image.pixels[index].to_array());
-        Err(format!(
-            "the pixel of column {x} and row {y}, which count from 0 at the top left, is {found:?}, \
-             expected finite numbers of at least 0"
-        ))
+        Ok(Self::of(size, Pixels::Values(tiled(size, value)?)))
     }
 
     /// Columns and rows.

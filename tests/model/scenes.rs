@@ -255,6 +255,17 @@ fn models_that_cannot_be_read() {
     for (set, message) in cases {
         assert_eq!(refused(&arrow, &[set]), message);
     }
+
+    // A model with materials has no grey one that an override could set. Caught: the override left out with it.
+    let painted = file("painted.obj", &format!("usemtl paint\n{ARROW}"));
+    for set in ["material.grey.nonsense=1", "material.grey.kd=[1,0,0]", "material.grey={}"] {
+        let message = refused(&painted, &[set]);
+        let expected = format!("--set {set}: the scene has no material `grey`; expected `paint`");
+        assert!(message.starts_with(&expected), "{message}");
+    }
+    assert!(read_scene(&painted, &["material={}", "camera.fov=30"]).is_ok());
+    let key = refused(&arrow, &["material.grey.nonsense=1"]);
+    assert!(key.contains("unknown key `nonsense` in [material.grey]"), "{key}");
 }
 
 /// A name that is no UTF-8 is a file all the same.

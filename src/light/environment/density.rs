@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, Vec2};
 
+use super::error::EnvironmentError;
 use super::map::{CellPoint, Corners, Map};
 use super::orientation::Place;
 use crate::sampling::{Discrete2d, bilinear};
@@ -20,8 +21,11 @@ pub struct Density {
 }
 
 impl Density {
+    /// Bytes of a pixel.
+    const BYTES: u64 = 4;
+
     /// `None` if the map is black.
-    pub fn new(map: &Map) -> Option<Self> {
+    pub fn new(map: &Map) -> Result<Option<Self>, EnvironmentError> {
         let size = map.cells();
         let edges: Box<[f64]> = (0..=size.y).map(|row| map.edge(row)).collect();
         let weight = |column: u32, row: u32| {
@@ -29,7 +33,10 @@ impl Density {
             let luminances = map.luminances(&map.corners([column, row].into()));
             luminances.into_iter().flatten().sum::<f64>() * (upper - lower)
         };
-        Some(Self { cells: Discrete2d::new(size, weight)?, edges })
+        let bytes = Self::BYTES * u64::from(size.x) * u64::from(size.y);
+        let cells = Discrete2d::new(size, weight);
+        let cells = cells.map_err(|_| EnvironmentError::OutOfMemory(bytes))?;
+        Ok(cells.map(|cells| Self { cells, edges }))
     }
 
     /// The column, as [`Place::x`], and the height of a direction.

@@ -3,6 +3,7 @@
 use glam::{Quat, UVec2};
 
 use crate::spectrum::Spectrum;
+use crate::texture::TexelsError;
 
 /// Why an image cannot be an environment map.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -37,9 +38,22 @@ pub enum EnvironmentError {
     /// A scale that is NaN, infinite or negative.
     #[error("the scale is {}, expected to be finite and at least 0", bands(.0))]
     Scale(Spectrum),
+    /// This many bytes are not available.
+    #[error("{} MiB of memory are not available", .0.div_ceil(1 << 20))]
+    OutOfMemory(u64),
     /// A rotation that is not of unit length.
     #[error("{0} is not a rotation")]
     Rotation(Quat),
+}
+
+impl From<TexelsError> for EnvironmentError {
+    fn from(error: TexelsError) -> Self {
+        match error {
+            TexelsError::Size { size, pixels } => Self::Size { size, pixels },
+            TexelsError::Pixel { at, value } => Self::Pixel { at, value },
+            TexelsError::OutOfMemory(bytes) => Self::OutOfMemory(bytes),
+        }
+    }
 }
 
 fn bands(spectrum: &Spectrum) -> String {

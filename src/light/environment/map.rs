@@ -37,27 +37,20 @@ pub type Corners = [[Spectrum; 2]; 2];
 impl Map {
     /// Checks the pixels. Codes of PNG and JPEG are those of sRGB.
     pub fn new(image: &Image, scale: Spectrum) -> Result<Self, EnvironmentError> {
-        let UVec2 { x: columns, y: rows } = image.size;
-        let area = columns as usize * rows as usize;
-        if image.pixels.len() != area || area == 0 {
-            return Err(EnvironmentError::Size { size: image.size, pixels: image.pixels.len() });
-        }
+        let texels = Texels::new(image, Curve::Srgb)?;
         if !scale.is_valid() {
             return Err(EnvironmentError::Scale(scale));
         }
-        let at = |index: usize| UVec2::new(index as u32 % columns, index as u32 / columns);
-        for (index, &value) in image.pixels.iter().enumerate() {
-            if !value.is_valid() {
-                return Err(EnvironmentError::Pixel { at: at(index), value });
-            }
-            if !(value * scale).is_valid() {
-                return Err(EnvironmentError::Overflow { at: at(index), value, scale });
-            }
+        let overflows = |value: &Spectrum| !(*value * scale).is_valid();
+        if let Some(index) = image.pixels.iter().position(overflows) {
+            let columns = image.size.x as usize;
+            let at = UVec2::new((index % columns) as u32, (index / columns) as u32);
+            return Err(EnvironmentError::Overflow { at, value: image.pixels[index], scale });
         }
         let is_constant = image.pixels.iter().all(|pixel| *pixel == image.pixels[0]);
         let bands = DVec3::from(scale.to_array().map(f64::from));
         let luminance = bands * DVec3::new(0.2126, 0.7152, 0.0722);
-        Ok(Self { texels: Texels::new(image, Curve::Srgb), scale, luminance, is_constant })
+        Ok(Self { texels, scale, luminance, is_constant })
     }
 
     /// Whether all pixels are alike.

@@ -17,6 +17,7 @@ use super::{BoundingSphere, Emitted, EscapedRays, Light, LightHit, LightSample, 
 use crate::image::Image;
 use crate::params::{Factor, Fault, Handedness, Key, Kind, Rotation, Shown, Table};
 use crate::spectrum::Spectrum;
+use crate::texture::Texels;
 use density::Density;
 use map::Map;
 use orientation::Orientation;
@@ -86,13 +87,22 @@ impl EnvironmentLight {
     /// A light of an image: radiance in W / (m² sr), or codes of sRGB if its encoding says so.
     ///
     /// # Errors
-    /// If a pixel is NaN, infinite or negative, or if a setting is.
+    /// If a pixel is NaN, infinite or negative, or if a setting is; if the image has not one pixel for each place; or if memory is not available.
     pub fn new(image: &Image, settings: &EnvironmentSettings) -> Result<Self, EnvironmentError> {
-        let EnvironmentSettings { scale, rotation, handedness } = *settings;
-        let orientation = Orientation::new(rotation, handedness);
-        let orientation = orientation.ok_or(EnvironmentError::Rotation(rotation))?;
-        let map = Map::new(image, scale)?;
-        let (density, mean) = (Density::new(&map), map.mean());
+        let orientation = orientation(settings)?;
+        Self::of_map(Map::new(image, settings.scale)?, orientation)
+    }
+
+    /// The same without the image in memory when the density is made.
+    fn of_image(image: Image, settings: &EnvironmentSettings) -> Result<Self, EnvironmentError> {
+        let orientation = orientation(settings)?;
+        let map = Map::new(&image, settings.scale)?;
+        drop(image);
+        Self::of_map(map, orientation)
+    }
+
+    fn of_map(map: Map, orientation: Orientation) -> Result<Self, EnvironmentError> {
+        let (density, mean) = (Density::new(&map)?, map.mean());
         Ok(Self { map, orientation, density, mean })
     }
 
@@ -115,6 +125,11 @@ impl EnvironmentLight {
         let pdf = |density: &Density| density.pdf(&self.map, &place, &point, &corners);
         (self.map.radiance(&point, &corners), self.density.as_ref().map_or(0.0, pdf))
     }
+}
+
+fn orientation(settings: &EnvironmentSettings) -> Result<Orientation, EnvironmentError> {
+    let EnvironmentSettings { rotation, handedness, .. } = *settings;
+    Orientation::new(rotation, handedness).ok_or(EnvironmentError::Rotation(rotation))
 }
 
 impl Light for EnvironmentLight {
@@ -191,8 +206,11 @@ fn read(table: &Table) -> Result<Arc<dyn Light>, Fault> {
         rotation: table.get(&ROTATE)?.map_or(Quat::IDENTITY, Quat::from),
         handedness: table.get(&Handedness::KEY)?,
     };
-    let image = Image::read(&file).map_err(|error| Fault::new(table.mark(&FILE), error))?;
-    match EnvironmentLight::new(&image, &settings) {
+    let fault = |error| Fault::new(table.mark(&FILE), error);
+    let image = Image::read(&file).map_err(fault)?;
+    // The pixels are copied; of the copy, the density takes less than the image did.
+    image.check_beside(&file, Texels::BYTES, Image::DEFAULT_LIMIT).map_err(fault)?;
+    match EnvironmentLight::of_image(image, &settings) {
         Ok(light) => Ok(Arc::new(light)),
         Err(error) => Err(Fault::new(table.mark(&FILE), Unfit { file, error })),
     }

@@ -7,7 +7,9 @@ use lobe::bxdf::{Arena, Bsdf, BxDF, BxdfFlags, LambertianReflection, OrenNayar};
 use lobe::geometry::BoundedPoint;
 use lobe::glam::{Vec2, Vec3};
 use lobe::interaction::{Partials, SurfaceInteraction};
-use lobe::material::{DetailedMaterial, Material, MatteMaterial, MetalMaterial, Roughness};
+use lobe::material::{
+    DetailedMaterial, Material, MatteMaterial, MetalMaterial, MixMaterial, Roughness,
+};
 use lobe::texture::{ConstantTexture, Texture};
 
 use crate::common::meshes::single;
@@ -160,6 +162,43 @@ fn opaque_surfaces_have_no_holes() {
             .is_some()
     };
     assert!(of(0.5) && of(0.0) && !of(1.0));
+}
+
+/// Holes are those of what is inside, too: multiplied under another layer of details, and mixed in mixtures, where a material without any is whole.
+///
+/// Caught: a layer that forgets the holes inside, or has them alone; a mixture without holes, and with those of the first; opacities beyond 1.
+#[test]
+fn materials_around_materials_have_their_holes() {
+    let grey = || MatteMaterial::new([0.5; 3]);
+    let open = |opacity: f32| DetailedMaterial::new(grey()).with_opacity(opacity);
+    let by_u =
+        DetailedMaterial::new(grey()).with_opacity(|si: &SurfaceInteraction| 4.0 * si.uv().x);
+    let amount = |si: &SurfaceInteraction| si.uv().y;
+    let partials = Partials { dpdu: Vec3::X, dpdv: Vec3::Y, ..Partials::default() };
+    let point = BoundedPoint { p: Vec3::ZERO, error: Vec3::ZERO };
+    let si = SurfaceInteraction::new(point, Vec2::new(0.125, 0.25), Vec3::Z, partials);
+    let cases: [(&dyn Material, Option<f32>); 9] = [
+        (&DetailedMaterial::new(open(0.3)).with_bump(1.0), Some(0.3)),
+        (&DetailedMaterial::new(open(0.3)).with_opacity(0.5), Some(0.15)),
+        (
+            &DetailedMaterial::new(open(3.0)).with_opacity(by_u.opacity().unwrap().clone()),
+            Some(0.5),
+        ),
+        (&DetailedMaterial::new(by_u.clone()).with_opacity(0.5), Some(0.25)),
+        (&MixMaterial::new(grey(), open(0.2), amount), Some(0.8)),
+        (&MixMaterial::new(open(0.2), grey(), amount), Some(0.4)),
+        (&MixMaterial::new(by_u, open(0.2), 0.5), Some(0.35)),
+        (&MixMaterial::new(grey(), grey(), amount), None),
+        (&MixMaterial::new(grey(), open(0.2), 0.0), None),
+    ];
+    for (case, (material, expected)) in cases.into_iter().enumerate() {
+        let found = material.opacity().map(|opacity| opacity.evaluate(&si));
+        let is_near = match (found, expected) {
+            (Some(found), Some(expected)) => (found - expected).abs() < 1e-6,
+            (found, expected) => found == expected,
+        };
+        assert!(is_near, "case {case}: {found:?}, expected {expected:?}");
+    }
 }
 
 /// A metal whose colour is a texture is the metal of that colour, but for the mean of its Fresnel reflectance: 1e-3. Seen to fail with

@@ -64,6 +64,22 @@ fn intensity_fades_towards_the_border() {
     assert!(lit > 10_000, "{lit}");
 }
 
+/// A cone of 180 degrees without falloff is a point light, also straight behind it. Caught: heights of 2 and more left out.
+#[test]
+fn a_cone_of_all_directions_has_no_dark_side() {
+    for trial in 0..1000 {
+        let mut rng = Rng::new(985, trial);
+        let axis = if trial == 0 { Vec3::X } else { rng.direction() };
+        let light = SpotLight::new(P, axis, L, 180.0, 180.0).unwrap();
+        let distance = rng.within(0.1, 10.0);
+        for p in [P - axis * distance, P + axis * distance] {
+            let li = light.sample_li(p, Vec2::ZERO).map_or(0.0, |sample| sample.li.to_array()[0]);
+            let li = li / L.to_array()[0] * p.distance_squared(P);
+            assert!((li - 1.0).abs() < 1e-5, "trial {trial}: {li}");
+        }
+    }
+}
+
 /// The integral of intensity over all directions. Seen to fail with PBRT's estimate.
 #[test]
 fn power_is_the_integral_of_intensity() {

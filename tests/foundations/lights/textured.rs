@@ -313,3 +313,21 @@ fn a_dark_texture_has_less_noise_by_power() {
     assert_mean(by_power.0, (by_area.1 / 1e5).sqrt(), by_area.0, 1, "the same light");
     assert!(by_area.1 > 100.0 * by_power.1, "{by_area:?}, {by_power:?}");
 }
+
+/// Few triangles take few lookups, whatever their area: each instance of a lamp makes them anew. Caught: all shared points on one triangle.
+#[test]
+fn few_triangles_take_few_lookups() {
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    for (cut, most) in [(1, 2 * 4112), (40, 3200 * 16 + 65_536)] {
+        let lookups = Arc::new(AtomicUsize::new(0));
+        let counted = lookups.clone();
+        let radiance = move |_: &SurfaceInteraction| {
+            counted.fetch_add(1, Ordering::Relaxed);
+            L
+        };
+        TexturedAreaLight::new(&grid(cut), radiance, false).unwrap();
+        let found = lookups.load(Ordering::Relaxed);
+        assert!(found <= most && 2 * found > most, "{cut}: {found}");
+    }
+}

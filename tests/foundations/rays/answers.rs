@@ -37,15 +37,6 @@ impl Loop {
         }
         closest
     }
-
-    /// The hit of a ray with the triangle that was hit, tested alone.
-    pub fn again(&self, ray: &Ray, hit: &Hit) -> Hit {
-        let number = (hit.shape, hit.triangle);
-        let found =
-            self.0.binary_search_by_key(&number, |(_, shape, triangle)| (*shape, *triangle));
-        let Ok(place) = found else { return Hit::MISS };
-        Self(vec![self.0[place]]).closest(ray)
-    }
 }
 
 /// A hit as integers, to compare bits.

@@ -27,7 +27,7 @@ fn random_weights(trial: u64) -> (Vec<f64>, UVec2) {
 }
 
 fn grid(weights: &[f64], size: UVec2) -> Discrete2d {
-    Discrete2d::new(size, |column, row| weights[(row * size.x + column) as usize]).unwrap()
+    Discrete2d::new(size, |column, row| weights[(row * size.x + column) as usize]).unwrap().unwrap()
 }
 
 fn cells(size: UVec2) -> impl Iterator<Item = UVec2> {
@@ -106,8 +106,9 @@ fn inverse_leads_back() {
 
 #[test]
 fn weights_that_add_up_to_nothing_are_refused() {
-    let make =
-        |weights: [f64; 2]| Discrete2d::new(UVec2::new(1, 2), |_, row| weights[row as usize]);
+    let make = |weights: [f64; 2]| {
+        Discrete2d::new(UVec2::new(1, 2), |_, row| weights[row as usize]).unwrap()
+    };
     for bad in [[0.0, 0.0], [-1.0, f64::NAN], [1.0, f64::INFINITY], [f64::MAX, f64::MAX]] {
         assert!(make(bad).is_none(), "{bad:?}");
     }
@@ -170,4 +171,11 @@ fn bilinear_is_a_triple() {
         assert_fits(&observed, &expected, TRIALS as usize, &format!("trial {trial}"));
     }
     assert_eq!(bilinear::pdf(DVec2::splat(0.5), [[0.0; 2]; 2]), 0.0);
+}
+
+/// A grid that does not fit into memory is refused before its weights are asked for.
+#[test]
+fn grids_beyond_memory_are_refused() {
+    let asked = |_, _| -> f64 { panic!("asked for a weight") };
+    assert!(Discrete2d::new(UVec2::splat((1 << 30) - 1), asked).is_err());
 }

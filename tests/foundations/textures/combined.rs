@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use lobe::Spectrum;
 use lobe::glam::{UVec2, Vec2};
+use lobe::image::ReadError;
 use lobe::image::{Picture, write_pfm};
 use lobe::interaction::SurfaceInteraction;
 use lobe::texture::{Curve, MixTexture, ProductTexture, Texture, TextureHandle, Textures};
@@ -89,4 +90,31 @@ fn values_that_are_no_texture_are_refused() {
         assert!(textures.images().is_empty());
     }
     assert!(Textures::default().image(&file("good.pfm", &[-0.0, f32::MAX]), Curve::Srgb).is_ok());
+}
+
+/// An image that cannot be used is not decoded for each texture that names it: the first failure stays. Caught: only images that can be used kept.
+#[test]
+fn failures_are_shared() {
+    let bad = file("bad.pfm", &[0.5, -1.0]);
+    let textures = Textures::default();
+    let first = textures.image(&bad, Curve::Linear).err().unwrap();
+    assert_eq!(file("bad.pfm", &[0.5, 1.0]), bad);
+    let again = textures.image(&bad, Curve::Linear).err().unwrap();
+    assert!(Arc::ptr_eq(&first, &again), "{again}");
+    assert!(textures.images().is_empty());
+    assert!(Textures::default().image(&bad, Curve::Linear).is_ok());
+}
+
+/// What is made of an image counts beside the image. Caught: the image alone; half of the pixels' bytes.
+#[test]
+fn lookups_count_in_the_limit() {
+    let large = file("large.pfm", &vec![0.5; 1 << 16]);
+    // 16 bytes a pixel as it is decoded, 12 for lookups.
+    let needed = 28 << 16;
+    assert!(Textures::default().with_limit(needed).image(&large, Curve::Linear).is_ok());
+    let refused = Textures::default().with_limit(needed - 1).image(&large, Curve::Linear);
+    let error = refused.err().unwrap();
+    assert!(matches!(*error, ReadError::AboveLimit { .. }), "{error:?}");
+    let expected = "2 x 32768 pixels take 2 MiB of memory, above the limit of 1 MiB";
+    assert_eq!(error.to_string(), format!("cannot read `{}`: {expected}", large.display()));
 }

@@ -20,7 +20,7 @@ use crate::common::Rng;
 fn noise(size: [u32; 2], seed: u64) -> ImageTexture {
     let mut rng = Rng::new(seed, 0);
     let values: Vec<f32> = (0..size[0] * size[1]).map(|_| rng.f32()).collect();
-    let texels = Texels::new(&image(size, Encoding::Linear, values), Curve::Linear);
+    let texels = Texels::new(&image(size, Encoding::Linear, values), Curve::Linear).unwrap();
     ImageTexture::new(texels).with_minification(Minification::Anisotropic)
 }
 
@@ -103,7 +103,7 @@ fn far_images_are_their_mean() {
         let mut rng = Rng::new(700 + 5, 0);
         let values: Vec<f32> = (0..size[0] * size[1]).map(|_| rng.f32()).collect();
         let mean = values.iter().map(|&x| f64::from(x)).sum::<f64>() / values.len() as f64;
-        let texels = Texels::new(&image(size, Encoding::Linear, values), Curve::Linear);
+        let texels = Texels::new(&image(size, Encoding::Linear, values), Curve::Linear).unwrap();
         let texture = ImageTexture::new(texels).with_minification(Minification::Anisotropic);
         for reach in [300.0, 1e6, 1e20] {
             let found = grey(texture.mean(Vec2::new(0.3, 0.7), [Vec2::X * reach, Vec2::Y * reach]));
@@ -199,7 +199,7 @@ fn every_projection_is_filtered() {
 #[test]
 fn footprints_are_as_long_as_they_are() {
     let values = (0..256).map(|i| if i < 128 { 0.0 } else { 1.0 });
-    let texels = Texels::new(&image([256, 1], Encoding::Linear, values), Curve::Linear);
+    let texels = Texels::new(&image([256, 1], Encoding::Linear, values), Curve::Linear).unwrap();
     let texture = ImageTexture::new(texels).with_wrap(Wrap::Clamp);
     let (long, short) = (Vec2::X * 0.5, Vec2::Y * 1e-3);
     for (s, part) in [(0.3, 0.1), (0.4, 0.3), (0.5, 0.5), (0.6, 0.7), (0.7, 0.9)] {
@@ -285,8 +285,9 @@ fn checkerboards_are_filtered_in_closed_form() {
 /// An image is decoded once and its smaller images are made once, however many textures share them.
 #[test]
 fn textures_share_smaller_images() {
-    let texels =
-        Arc::new(Texels::new(&image([64, 64], Encoding::Linear, vec![0.5; 4096]), Curve::Linear));
+    let texels = Arc::new(
+        Texels::new(&image([64, 64], Encoding::Linear, vec![0.5; 4096]), Curve::Linear).unwrap(),
+    );
     let plain = texels.bytes();
     for _ in 0..3 {
         let texture = ImageTexture::new(texels.clone()).with_magnification(Magnification::Nearest);

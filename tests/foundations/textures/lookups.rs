@@ -5,7 +5,9 @@ use std::sync::Arc;
 use lobe::Spectrum;
 use lobe::glam::{UVec2, Vec2};
 use lobe::image::{Encoding, Image};
-use lobe::texture::{Channel, Curve, ImageTexture, Magnification, Texels, Texture, Wrap};
+use lobe::texture::{
+    Channel, Curve, ImageTexture, Magnification, Texels, TexelsError, Texture, Wrap,
+};
 
 use super::at;
 use crate::common::Rng;
@@ -35,7 +37,7 @@ const CURVES: [Curve; 3] = [Curve::Srgb, Curve::Gamma22, Curve::Linear];
 fn codes_of_8_bits_are_exact() {
     for curve in CURVES {
         let codes = (0..=255_u8).map(|code| f32::from(code) / 255.0);
-        let texels = Texels::new(&image([16, 16], Encoding::Srgb, codes), curve);
+        let texels = Texels::new(&image([16, 16], Encoding::Srgb, codes), curve).unwrap();
         assert_eq!(texels.bytes(), 4 * 256 + 4 * 256);
         for code in 0..256 {
             let expected = Spectrum::splat(meaning(curve, f64::from(code) / 255.0));
@@ -50,7 +52,7 @@ fn codes_of_16_bits_keep_their_precision() {
     for curve in CURVES {
         let codes = |code: u16| f32::from(code) / 65535.0;
         let texels = image([256, 256], Encoding::Srgb, (0..=65535).map(codes));
-        let texels = Texels::new(&texels, curve);
+        let texels = Texels::new(&texels, curve).unwrap();
         assert_eq!(texels.bytes(), 12 << 16);
         for code in 0..=65535_u16 {
             let expected = Spectrum::splat(meaning(curve, f64::from(codes(code))));
@@ -66,7 +68,7 @@ fn radiance_stays_as_it_is() {
     let values = [0.0, -0.0, 1e-45, 0.25, 1.0, 51.0 / 255.0, 7.5, f32::MAX];
     for (curve, values) in CURVES.into_iter().flat_map(|curve| [(curve, values), (curve, [1.0; 8])])
     {
-        let texels = Texels::new(&image([8, 1], Encoding::Linear, values), curve);
+        let texels = Texels::new(&image([8, 1], Encoding::Linear, values), curve).unwrap();
         // Two tiles of 16 pixels.
         assert_eq!(texels.bytes(), 2 * 16 * 12);
         for (x, value) in values.into_iter().enumerate() {
@@ -132,10 +134,10 @@ fn lookups_equal_the_reference() {
     for (test, size) in sizes.into_iter().enumerate() {
         let mut rng = Rng::new(0x7e71, test as u64);
         let values: Vec<f32> = (0..size[0] * size[1]).map(|_| rng.f32()).collect();
-        let texels = Arc::new(Texels::new(
-            &image(size, Encoding::Linear, values.iter().copied()),
-            Curve::Linear,
-        ));
+        let texels = Arc::new(
+            Texels::new(&image(size, Encoding::Linear, values.iter().copied()), Curve::Linear)
+                .unwrap(),
+        );
         for wrap in WRAPS {
             for magnification in MAGNIFICATIONS {
                 let texture = ImageTexture::new(texels.clone())
@@ -174,7 +176,8 @@ fn coordinate(rng: &mut Rng, side: u32) -> f32 {
 #[test]
 fn lookups_anywhere_have_values() {
     let values = [0.25, 0.5, 0.75, 1.0, 0.0, 0.125];
-    let texels = Arc::new(Texels::new(&image([3, 2], Encoding::Linear, values), Curve::Linear));
+    let texels =
+        Arc::new(Texels::new(&image([3, 2], Encoding::Linear, values), Curve::Linear).unwrap());
     let edges = [1e18, 1e19, 1e30, f32::MAX, -1e18, -1e19, -1e30, f32::MIN, 0.5];
     for (wrap, magnification) in
         WRAPS.into_iter().flat_map(|wrap| MAGNIFICATIONS.map(|magnification| (wrap, magnification)))
@@ -204,7 +207,8 @@ fn lookups_anywhere_have_values() {
 #[test]
 fn mirrors_are_symmetric_about_edges() {
     let texels =
-        Texels::new(&image([5, 1], Encoding::Linear, [0.1, 0.9, 0.3, 0.7, 0.2]), Curve::Linear);
+        Texels::new(&image([5, 1], Encoding::Linear, [0.1, 0.9, 0.3, 0.7, 0.2]), Curve::Linear)
+            .unwrap();
     let texture = ImageTexture::new(texels).with_wrap(Wrap::Mirror);
     for edge in -3..=3 {
         for step in 1..=64 {
@@ -220,7 +224,7 @@ fn mirrors_are_symmetric_about_edges() {
 fn numbers_are_bands_of_an_image() {
     let mut image = image([1, 1], Encoding::Linear, [0.0]);
     image.pixels[0] = Spectrum::new(0.5, 0.25, 1.0);
-    let texels = Arc::new(Texels::new(&image, Curve::Linear));
+    let texels = Arc::new(Texels::new(&image, Curve::Linear).unwrap());
     let luminance = 0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722;
     for (channel, expected) in [
         (Channel::Red, 0.5),
@@ -230,5 +234,30 @@ fn numbers_are_bands_of_an_image() {
     ] {
         let number = ImageTexture::new(texels.clone()).channel(channel);
         assert!((number.evaluate(&at(Vec2::splat(0.3))) - expected).abs() < 1e-7, "{channel:?}");
+    }
+}
+
+/// What cannot be looked up is refused with its reason. Caught: images of no pixels or too few, negative pixels, and the place by rows.
+#[test]
+fn images_that_cannot_be_looked_up() {
+    let refused = |size: [u32; 2], values: Vec<f32>| {
+        let whole = [1, values.len() as u32];
+        let image = Image { size: size.into(), ..image(whole, Encoding::Linear, values) };
+        Texels::new(&image, Curve::Linear).err().expect("refused")
+    };
+    for (size, pixels) in [([2, 2], 3), ([0, 4], 0), ([0, 4], 2), ([1, 0], 1), ([1 << 31; 2], 1)] {
+        let expected = TexelsError::Size { size: size.into(), pixels };
+        assert_eq!(refused(size, vec![0.5; pixels]), expected);
+    }
+    let message = refused([2, 2], vec![0.5; 3]).to_string();
+    assert_eq!(message, "3 pixels for 2 x 2, expected one for each, and at least one");
+    for (value, text) in [(-0.5, "-0.5"), (f32::NAN, "NaN"), (f32::INFINITY, "inf")] {
+        assert_eq!(
+            refused([3, 2], vec![0.0, 1.0, 2.0, 3.0, 4.0, value]).to_string(),
+            format!(
+                "the pixel of column 2 and row 1, which count from 0 at the top left, is [{text}, {text}, {text}], \
+                 expected finite numbers of at least 0"
+            )
+        );
     }
 }

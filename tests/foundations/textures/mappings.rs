@@ -26,7 +26,7 @@ fn ramp(along_s: bool) -> ImageTexture {
         true => image([1024, 1], Encoding::Linear, (0..1024).map(value)),
         false => image([1, 1024], Encoding::Linear, (0..1024).rev().map(value)),
     };
-    ImageTexture::new(Texels::new(&texels, Curve::Linear)).with_wrap(Wrap::Clamp)
+    ImageTexture::new(Texels::new(&texels, Curve::Linear).unwrap()).with_wrap(Wrap::Clamp)
 }
 
 /// Half a pixel of the ramp.
@@ -155,7 +155,7 @@ fn spheres_have_poles_and_a_centre() {
 /// planes exchanged.
 #[test]
 fn three_planes_are_mixed_by_the_normal() {
-    let white = Texels::new(&image([1, 1], Encoding::Linear, [1.0]), Curve::Linear);
+    let white = Texels::new(&image([1, 1], Encoding::Linear, [1.0]), Curve::Linear).unwrap();
     let white =
         ImageTexture::new(Arc::new(white)).with_mapping(Mapping::new(Projection::Triplanar));
     for trial in 0..500 {

@@ -22,8 +22,8 @@ fn noise() -> ImageTexture {
     let pixels = (0..SIDE * SIDE).map(|_| Spectrum::splat(rng.unit() as f32)).collect();
     let (size, encoding) = (UVec2::splat(SIDE), Encoding::Linear);
     let image = Image { size, pixels, variance: None, degrees_of_freedom: None, encoding };
-    ImageTexture::new(Texels::new(&image, Curve::Linear))
-        .with_minification(Minification::Anisotropic)
+    let texels = Texels::new(&image, Curve::Linear).expect("a small image of greys");
+    ImageTexture::new(texels).with_minification(Minification::Anisotropic)
 }
 
 /// Root mean square errors of one sample in the middle of each pixel of a picture of the plane z = 0: of the image's own pixel, of the usual
