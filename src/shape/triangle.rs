@@ -95,7 +95,7 @@ impl ShearedRay {
             return None;
         }
         let reach = Reach::new(corners);
-        let mut crossing = Crossing::new(edges, z, self);
+        let mut crossing = Crossing::new(edges, z, self.shear[2]);
         if !crossing.is_in_front(&reach, true) {
             return None;
         }

@@ -125,13 +125,13 @@ pub(crate) struct Crossing<F> {
 impl<F: Float> Crossing<F> {
     /// t is NaN if all edge functions are zero.
     #[inline(always)]
-    pub fn new(Edges(edges): Edges<F>, z: [F; 3], ray: &ShearedRay<F>) -> Self {
+    pub fn new(Edges(edges): Edges<F>, z: [F; 3], t_per_depth: F) -> Self {
         let [a, b, c] = edges;
         let determinant = a + b + c;
         let weighted = a * z[0] + b * z[1] + c * z[2];
         // Depth before t: products with the scaled z could exceed the range of f32.
         let depth = weighted / determinant;
-        Self { edges, determinant, weighted, depth, t: depth * ray.shear[2] }
+        Self { edges, determinant, weighted, depth, t: depth * t_per_depth }
     }
 
     /// Whether t is in a range.

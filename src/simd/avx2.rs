@@ -4,7 +4,7 @@ use std::arch::x86_64::*;
 
 use super::f32x8::{F32x8, Indices8};
 use super::float::Float;
-use super::lanes::{Kernel, Lanes, Vector};
+use super::lanes::{Kernel, Lanes, Pick, Vector};
 use super::twice::Twice;
 
 /// Sixteen f32 in two registers. Only [`super::InstructionSet::run`] names this type, if [`Avx2::is_available`]: each
@@ -30,9 +30,26 @@ impl Vector for Avx2 {
     fn lane(self, lane: u32) -> f32 {
         if lane < 8 { self.0.lane(lane) } else { self.1.lane(lane) }
     }
+}
+
+impl Pick<Self> for Avx2 {
     #[inline(always)]
-    fn permute(self, Twice(low, high): Self::Indices) -> Self {
-        Self(pick(self, low), pick(self, high))
+    fn pick(self, Twice(low, high): Twice<Indices8>) -> Self {
+        Self(self.pick(low), self.pick(high))
+    }
+}
+
+impl Pick<F32x8> for Avx2 {
+    #[inline(always)]
+    fn pick(self, Indices8(indices): Indices8) -> F32x8 {
+        // SAFETY: as above.
+        unsafe {
+            let low = _mm256_permutevar8x32_ps(self.0.0, indices);
+            let high = _mm256_permutevar8x32_ps(self.1.0, indices);
+            // The fourth bit, moved to the sign, picks the half.
+            let half = _mm256_castsi256_ps(_mm256_slli_epi32::<28>(indices));
+            F32x8(_mm256_blendv_ps(low, high, half))
+        }
     }
 }
 
@@ -73,17 +90,5 @@ impl Lanes for Avx2 {
             let two = _mm_min_ps(four, _mm_movehl_ps(four, four));
             _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)))
         }
-    }
-}
-
-/// Picks eight lanes of sixteen by the lowest four bits of each index.
-#[inline(always)]
-fn pick(from: Avx2, Indices8(indices): Indices8) -> F32x8 {
-    // SAFETY: as above.
-    unsafe {
-        let low = _mm256_permutevar8x32_ps(from.0.0, indices);
-        let high = _mm256_permutevar8x32_ps(from.1.0, indices);
-        // The fourth bit, moved to the sign, picks the half.
-        F32x8(_mm256_blendv_ps(low, high, _mm256_castsi256_ps(_mm256_slli_epi32::<28>(indices))))
     }
 }

@@ -8,7 +8,7 @@ use glam::Vec2;
 use super::avx2::Avx2;
 use super::f32x8::F32x8;
 use super::float::{Bits, Block, Float, LaneMask};
-use super::lanes::{Kernel, LANES, LaneIndices, Lanes, Vector};
+use super::lanes::{Kernel, LANES, LaneIndices, Lanes, Pick, Vector};
 
 /// Sixteen f32 in one register. Only [`super::InstructionSet::run`] names this type, if [`Avx512::is_available`]: each
 /// `unsafe` below executes an instruction that such a processor has.
@@ -52,8 +52,11 @@ impl Vector for Avx512 {
         // SAFETY: as above.
         unsafe { _mm512_cvtss_f32(_mm512_permutexvar_ps(_mm512_set1_epi32(lane as i32), self.0)) }
     }
+}
+
+impl Pick<Self> for Avx512 {
     #[inline(always)]
-    fn permute(self, indices: Indices512) -> Self {
+    fn pick(self, indices: Indices512) -> Self {
         // SAFETY: as above.
         Self(unsafe { _mm512_permutexvar_ps(indices.0, self.0) })
     }

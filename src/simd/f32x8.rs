@@ -7,7 +7,7 @@ use glam::Vec2;
 
 use super::eight::{ARITY, Eight};
 use super::float::{Bits, Block, Float, LaneMask};
-use super::lanes::{LaneIndices, Mask, Vector};
+use super::lanes::{LaneIndices, Mask, Pick, Vector};
 use super::transpose::{pair, transpose4, transpose8};
 use super::twice::Twice;
 
@@ -27,8 +27,11 @@ impl Vector for F32x8 {
             _mm256_cvtss_f32(_mm256_permutevar8x32_ps(self.0, lane))
         }
     }
+}
+
+impl Pick<Self> for F32x8 {
     #[inline(always)]
-    fn permute(self, indices: Indices8) -> Self {
+    fn pick(self, indices: Indices8) -> Self {
         // SAFETY: as above.
         unsafe { Self(_mm256_permutevar8x32_ps(self.0, indices.0)) }
     }

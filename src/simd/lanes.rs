@@ -37,7 +37,7 @@ pub trait Kernel {
     ) -> Self::Output;
 }
 
-/// For each lane the index of a lane; operand of [`Vector::permute`].
+/// For each lane the index of a lane; operand of [`Pick::pick`].
 pub trait LaneIndices: Copy {
     /// Unpacks four bits per lane: even lanes from the first word, odd lanes from the second, lowest lane lowest.
     fn unpack(words: [u32; 2]) -> Self;
@@ -45,20 +45,23 @@ pub trait LaneIndices: Copy {
 
 /// A vector of eight or sixteen f32: what the test of one ray against a leaf needs.
 pub trait Vector: Block {
-    /// Operand of [`Vector::permute`].
+    /// Operand of [`Pick::pick`].
     type Indices: LaneIndices;
 
     /// The number in one lane.
     fn lane(self, lane: u32) -> f32;
+}
+
+/// Lanes of a vector picked into another, which may have fewer.
+pub trait Pick<V: Vector> {
     /// Lane `i` of the result is lane `indices[i]` of `self`.
-    fn permute(self, indices: Self::Indices) -> Self;
+    fn pick(self, indices: V::Indices) -> V;
 }
 
 /// A vector of sixteen f32: what tests of large leaves and of packets of rays need.
-pub trait Lanes: Vector {
-    /// The vector for leaves whose vertices and triangles all fit into its lanes; half as wide where testing two
-    /// registers takes twice as long as testing one.
-    type Narrow: Vector;
+pub trait Lanes: Vector + Pick<Self> + Pick<Self::Narrow> {
+    /// The vector for the triangles of a leaf; half as wide where testing two registers takes twice as long as testing one.
+    type Narrow: Vector + Pick<Self::Narrow>;
 
     /// The vector for loops over blocks of numbers: the widest that is one register.
     type Block: Block;

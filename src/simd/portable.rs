@@ -5,7 +5,7 @@ use std::array::from_fn;
 use glam::Vec4;
 
 use super::float::{Block, Float};
-use super::lanes::{Kernel, LANES, LaneIndices, Lanes, Vector};
+use super::lanes::{Kernel, LANES, LaneIndices, Lanes, Pick, Vector};
 use super::twice::Twice;
 
 /// Sixteen f32.
@@ -18,8 +18,11 @@ impl Vector for Portable {
     fn lane(self, lane: u32) -> f32 {
         self.to_array()[lane as usize % LANES]
     }
+}
+
+impl Pick<Self> for Portable {
     #[inline(always)]
-    fn permute(self, indices: [u8; LANES]) -> Self {
+    fn pick(self, indices: [u8; LANES]) -> Self {
         let from = self.to_array();
         Self::load(&indices.map(|i| from[usize::from(i) % LANES]))
     }

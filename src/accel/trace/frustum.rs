@@ -1,6 +1,6 @@
 //! [`Frustum`]: a beam of rays, against the boxes of a node and the triangles of a leaf.
 
-use super::leaf_test::permute3;
+use super::leaf_test::pick3;
 use super::packet::{Packet, lane3};
 use crate::accel::tree::{Bvh, Leaf, Node};
 use crate::shape::ShearedRay;
@@ -172,7 +172,7 @@ impl Frustum {
     pub fn candidates<L: Lanes>(&self, leaf: Leaf, packet: usize) -> Mask {
         let sides = &self.of_packets[packet % MAX_PACKETS];
         let z = leaf.vertices::<L>(self.axes[2]) - L::splat(self.base[2]);
-        let corners = leaf.corners();
+        let corners = leaf.corners(0);
         let x_between = self.between_sides(leaf, 0, z, sides, corners);
         let y_between = self.between_sides(leaf, 1, z, sides, corners);
         leaf.lanes() & (x_between & y_between).bits()
@@ -234,6 +234,6 @@ fn end<L: Lanes, const N: usize>(packets: &[Packet<L>; N], base: L) -> f32 {
 /// The largest value of each triangle's vertices.
 #[inline(always)]
 fn max_of_corners<L: Lanes>(vertices: L, corners: [L::Indices; 3]) -> L {
-    let [a, b, c] = permute3(vertices, corners);
+    let [a, b, c]: [L; 3] = pick3(vertices, corners);
     a.max(b.max(c))
 }

@@ -1,12 +1,12 @@
 //! [`Packet`]: sixteen rays of similar direction, against one box or one triangle at a time.
 
-use super::leaf_test::{LeafTest, intersect_triangle};
+use super::leaf_test::{candidates, intersect_triangle};
 use super::space::World;
 use crate::accel::tree::{Bvh, Leaf, Node};
 use crate::geometry::Ray;
 use crate::interaction::Hit;
 use crate::shape::{Crossing, Edges, Reach, ShearedRay, TriangleHit, longest_axis};
-use crate::simd::{ARITY, LANES, LaneMask, Lanes, Mask, Vector, splat3};
+use crate::simd::{ARITY, Block, LANES, LaneMask, Lanes, Mask, splat3};
 
 /// Sixteen rays whose directions have the same largest axis, with the same sign, and the nearest hit of each so far.
 pub struct Packet<'a, L> {
@@ -105,19 +105,15 @@ impl<'a, L: Lanes> Packet<'a, L> {
     /// The lanes of the triangles of a leaf that one ray may hit before its nearest hit.
     #[inline(always)]
     pub fn candidates_of(&self, leaf: Leaf, ray: u32) -> Mask {
-        if leaf.fits::<L::Narrow>() {
-            return self.candidates::<L::Narrow>(leaf, ray);
-        }
-        self.candidates::<L>(leaf, ray)
-    }
-
-    #[inline(always)]
-    fn candidates<V: Vector>(&self, leaf: Leaf, ray: u32) -> Mask {
         let ShearedRay { axes, o, shear } = self.sheared;
         let sheared = ShearedRay { axes, o: lane3(o, ray), shear: lane3(shear, ray) };
-        let test = LeafTest::<V>::new(&sheared, self.t_min.lane(ray));
-        let t_max = V::splat(self.t_max.lane(ray));
-        test.candidates(World, leaf, t_max).map_or(0, |candidates| candidates.lanes)
+        let (t_min, t_max) = (self.t_min.lane(ray), self.t_max.lane(ray));
+        let mut lanes = 0;
+        for first in (0..leaf.triangles()).step_by(L::Narrow::LANES) {
+            let candidates = candidates::<L, _>(World, &sheared, leaf, first, t_min, t_max);
+            lanes |= candidates.map_or(0, |candidates| candidates.lanes) << first;
+        }
+        lanes
     }
 
     /// Tests all rays against one triangle of a leaf; returns those for which it is the nearest hit so far.
@@ -132,7 +128,7 @@ impl<'a, L: Lanes> Packet<'a, L> {
         let inside = edges.inside() & !undecided;
         let mut all = 0;
         if inside.any() {
-            let crossing = Crossing::new(edges, z, &self.sheared);
+            let crossing = Crossing::new(edges, z, self.sheared.shear[2]);
             let reach = Reach::new(corners);
             let sure = crossing.is_sure(&reach);
             let mut hit = inside & (crossing.is_within(self.t_min, self.t_max) | !sure);

@@ -3,14 +3,14 @@
 //! All triangles of a leaf are tested at once. If for one of them vectors can't tell what the scalar test of
 //! [`crate::shape::ShearedRay`] would, the ray is traced once more with the scalar test for every candidate.
 
-use super::leaf_test::{LeafTest, intersect_triangle};
+use super::leaf_test::{Candidates, candidates, intersect_triangle};
 use super::space::Space;
 use super::stack::Stack;
 use crate::accel::tree::{Bvh, Child, Leaf};
 use crate::geometry::Ray;
 use crate::interaction::Hit;
 use crate::shape::{ShearedRay, TriangleHit};
-use crate::simd::{ARITY, Kernel, LaneMask, Lanes, Vector};
+use crate::simd::{ARITY, Block, Kernel, LaneMask, Lanes, Vector};
 
 /// Where traversal begins: at the root, or for rays that leave a beam further down.
 #[derive(Clone, Copy)]
@@ -132,13 +132,7 @@ fn closest<L: Lanes, S: Space, const EXACT: bool>(
             }
         }
         let leaf = bvh.leaf(child);
-        let is_nearer = if leaf.fits::<L::Narrow>() {
-            let narrow = LeafTest::<L::Narrow>::new(&sheared, ray.t_min);
-            nearest.update::<_, S, EXACT>(space, &narrow, &sheared, leaf)?
-        } else {
-            let wide = LeafTest::<L>::new(&sheared, ray.t_min);
-            nearest.update::<_, S, EXACT>(space, &wide, &sheared, leaf)?
-        };
+        let is_nearer = nearest.update::<L, S, EXACT>(space, &sheared, leaf)?;
         if is_nearer {
             slabs.shorten(nearest.t);
         }
@@ -190,13 +184,7 @@ fn any<L: Lanes, S: Space, const EXACT: bool>(
             }
         }
         let leaf = bvh.leaf(child);
-        let is_hit = if leaf.fits::<L::Narrow>() {
-            let narrow = LeafTest::<L::Narrow>::new(&sheared, ray.t_min);
-            is_any_hit::<_, S, EXACT>(space, &narrow, &sheared, leaf, ray)?
-        } else {
-            let wide = LeafTest::<L>::new(&sheared, ray.t_min);
-            is_any_hit::<_, S, EXACT>(space, &wide, &sheared, leaf, ray)?
-        };
+        let is_hit = is_any_hit::<L, S, EXACT>(space, &sheared, leaf, ray)?;
         if is_hit {
             return Ok(true);
         }
@@ -209,29 +197,28 @@ fn any<L: Lanes, S: Space, const EXACT: bool>(
 
 /// Whether the ray hits a triangle of a leaf.
 #[inline(always)]
-fn is_any_hit<V: Vector, S: Space, const EXACT: bool>(
+fn is_any_hit<L: Lanes, S: Space, const EXACT: bool>(
     space: S,
-    test: &LeafTest<V>,
     sheared: &ShearedRay,
     leaf: Leaf,
     ray: &Ray,
 ) -> Result<bool, Undecided> {
-    let Some(candidates) = test.candidates(space, leaf, V::splat(ray.t_max)) else {
-        return Ok(false);
-    };
-    let is_hit = candidates.lanes & !candidates.undecided != 0;
-    if is_hit || candidates.undecided == 0 {
-        return Ok(is_hit);
-    }
-    if !EXACT {
-        return Err(Undecided);
-    }
-    let mut lanes = candidates.undecided;
-    while lanes != 0 {
-        let lane = lanes.trailing_zeros();
-        lanes &= lanes - 1;
-        if intersect_triangle(space, sheared, leaf, lane, ray.t_min, ray.t_max).is_some() {
+    let (t_min, t_max) = (ray.t_min, ray.t_max);
+    for first in (0..leaf.triangles()).step_by(L::Narrow::LANES) {
+        let found = candidates::<L, S>(space, sheared, leaf, first, t_min, t_max);
+        let Some(Candidates { lanes, mut undecided, .. }) = found else { continue };
+        if lanes & !undecided != 0 {
             return Ok(true);
+        }
+        if !EXACT && undecided != 0 {
+            return Err(Undecided);
+        }
+        while undecided != 0 {
+            let lane = first as u32 + undecided.trailing_zeros();
+            undecided &= undecided - 1;
+            if intersect_triangle(space, sheared, leaf, lane, t_min, t_max).is_some() {
+                return Ok(true);
+            }
         }
     }
     Ok(false)
@@ -253,35 +240,35 @@ struct Nearest {
 impl Nearest {
     /// Tests a leaf; returns whether it has a nearer hit.
     #[inline(always)]
-    fn update<V: Vector, S: Space, const EXACT: bool>(
+    fn update<L: Lanes, S: Space, const EXACT: bool>(
         &mut self,
         space: S,
-        test: &LeafTest<V>,
         sheared: &ShearedRay,
         leaf: Leaf,
     ) -> Result<bool, Undecided> {
-        let Some(candidates) = test.candidates(space, leaf, V::splat(self.t)) else {
-            return Ok(false);
-        };
-        if !EXACT && candidates.undecided != 0 {
-            return Err(Undecided);
-        }
         let mut is_nearer = false;
-        let mut lanes = candidates.lanes;
-        while lanes != 0 {
-            let lane = lanes.trailing_zeros();
-            lanes &= lanes - 1;
-            let crossing = &candidates.crossing;
-            let id = leaf.id(lane);
-            if EXACT && candidates.undecided >> lane & 1 == 1 {
-                let hit = intersect_triangle(space, sheared, leaf, lane, self.t_min, self.t);
-                let Some(TriangleHit { t, b }) = hit else { continue };
-                is_nearer |= self.take(t, id, b, 1.0);
-            } else {
-                let [a, b, c] = crossing.edges;
-                let edges = [a.lane(lane), b.lane(lane), c.lane(lane)];
-                let (t, sum) = (crossing.t.lane(lane), crossing.determinant.lane(lane));
-                is_nearer |= self.take(t, id, edges, sum);
+        for first in (0..leaf.triangles()).step_by(L::Narrow::LANES) {
+            let found = candidates::<L, S>(space, sheared, leaf, first, self.t_min, self.t);
+            let Some(Candidates { mut lanes, undecided, crossing }) = found else { continue };
+            if !EXACT && undecided != 0 {
+                return Err(Undecided);
+            }
+            while lanes != 0 {
+                let in_vector = lanes.trailing_zeros();
+                let lane = first as u32 + in_vector;
+                lanes &= lanes - 1;
+                let id = leaf.id(lane);
+                if EXACT && undecided >> in_vector & 1 == 1 {
+                    let hit = intersect_triangle(space, sheared, leaf, lane, self.t_min, self.t);
+                    let Some(TriangleHit { t, b }) = hit else { continue };
+                    is_nearer |= self.take(t, id, b, 1.0);
+                } else {
+                    let [a, b, c] = crossing.edges;
+                    let edges = [a.lane(in_vector), b.lane(in_vector), c.lane(in_vector)];
+                    let t = crossing.t.lane(in_vector);
+                    let sum = crossing.determinant.lane(in_vector);
+                    is_nearer |= self.take(t, id, edges, sum);
+                }
             }
         }
         Ok(is_nearer)

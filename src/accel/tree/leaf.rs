@@ -33,24 +33,24 @@ impl<'a> Leaf<'a> {
         })
     }
 
-    /// Which vertices the first, second and third corner of all triangles are.
+    /// Which vertices the first, second and third corner of the triangles from `first` on are, an even number below 16.
     #[inline(always)]
-    pub fn corners<I: LaneIndices>(self) -> [I; 3] {
+    pub fn corners<I: LaneIndices>(self, first: usize) -> [I; 3] {
         let words = &self.words[3 * self.vertices..][..6];
-        let pair = |i: usize| [words[i].to_bits(), words[i + 1].to_bits()];
+        let pair = |i: usize| [words[i], words[i + 1]].map(|word| word.to_bits() >> (2 * first));
         [I::unpack(pair(0)), I::unpack(pair(2)), I::unpack(pair(4))]
     }
 
     /// Number of triangles, from 1 to 16.
     #[inline(always)]
-    fn triangles(self) -> usize {
+    pub fn triangles(self) -> usize {
         self.words[3 * self.vertices + HEADER - 1].to_bits() as usize
     }
 
-    /// Whether a kind of vector has lanes for all vertices and all triangles.
+    /// Whether a kind of vector has lanes for all vertices.
     #[inline(always)]
-    pub fn fits<V: Vector>(self) -> bool {
-        V::LANES == LANES || self.vertices <= V::LANES && self.triangles() <= V::LANES
+    pub fn has_vertices_for<V: Vector>(self) -> bool {
+        V::LANES == LANES || self.vertices <= V::LANES
     }
 
     /// The lanes that have triangles.
