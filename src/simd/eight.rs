@@ -2,8 +2,7 @@
 
 use glam::Vec4;
 
-use super::float::{Block, LaneMask};
-use super::lanes::Mask;
+use super::float::{Block, LaneMask, Mask};
 use super::twice::Twice;
 
 /// Number of lanes of an [`Eight`]: children per node.

@@ -6,8 +6,8 @@ use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 use glam::Vec2;
 
 use super::eight::{ARITY, Eight};
-use super::float::{Bits, Block, Float, LaneMask};
-use super::lanes::{LaneIndices, Mask, Pick, Vector};
+use super::float::{Bits, Block, Float, LaneMask, Mask};
+use super::lanes::{LaneIndices, Pick, Vector};
 use super::transpose::{pair, transpose4, transpose8};
 use super::twice::Twice;
 

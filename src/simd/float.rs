@@ -70,6 +70,9 @@ pub trait Float:
     }
 }
 
+/// One bit per lane, lane 0 lowest.
+pub type Mask = u32;
+
 /// Which lanes satisfy a condition.
 pub trait LaneMask:
     Copy + BitAnd<Output = Self> + BitOr<Output = Self> + BitXor<Output = Self> + Not<Output = Self>

@@ -6,9 +6,6 @@ use super::float::{Block, Float};
 /// Number of lanes of a [`Lanes`]: most triangles per leaf, rays per packet.
 pub const LANES: usize = 16;
 
-/// One bit per lane, lane 0 lowest.
-pub type Mask = u32;
-
 /// Code that is written once for all instruction sets.
 ///
 /// Its arguments are `self`, what is asked, data that is read for it, and scratch memory. The latter three are references of

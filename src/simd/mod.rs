@@ -33,7 +33,7 @@ mod f32x8;
 mod transpose;
 
 pub use eight::{ARITY, Eight};
-pub use float::{Bits, Block, Float, LaneMask, MAX_LANES, eighth_turn, four};
+pub use float::{Bits, Block, Float, LaneMask, MAX_LANES, Mask, eighth_turn, four};
 pub use instruction_set::{BlockKernel, InstructionSet, InstructionSetError};
-pub use lanes::{Kernel, LANES, LaneIndices, Lanes, Mask, Pick, Vector, splat3};
+pub use lanes::{Kernel, LANES, LaneIndices, Lanes, Pick, Vector, splat3};
 pub use row::{ROW, Row, RowMask, Rows, groups, indices, lanes_within};

@@ -9,7 +9,7 @@ use super::mapping::{self, Mapping};
 use super::value::Constant;
 use super::{AnyTexture, Read, Texture, TextureHandle, TextureKey, Textures};
 use crate::interaction::SurfaceInteraction;
-use crate::params::{Fault, Key, Kind, Table};
+use crate::params::{AnyKey, Fault, Key, Kind, Table};
 
 /// Squares of one unit, in turn of one texture and of another (PBRT 3rd edition, section 10.5.1).
 ///
@@ -94,10 +94,12 @@ const FIRST: TextureKey<Constant> =
 const SECOND: TextureKey<Constant> = TextureKey::of(Key::new("second", "in the squares beside it"));
 
 /// `type = "checkerboard"`
+const KEYS: [&dyn AnyKey; 8] = mapping::with_keys([&FIRST, &SECOND]);
+
 pub(super) const KIND: Kind<Read> = Kind {
     name: "checkerboard",
     meaning: "Squares of two textures in turn, filtered over pixels in closed form",
-    keys: mapping::with_keys!(&FIRST, &SECOND),
+    keys: &KEYS,
     read,
 };
 

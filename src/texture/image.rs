@@ -12,7 +12,7 @@ use super::texels::{Curve, Texels};
 use super::wrap::Wrap;
 use super::{AnyTexture, Read, Texture, Textures};
 use crate::interaction::{BLOCK, HitBlock, SurfaceInteraction};
-use crate::params::{Choice, Fault, Key, Kind, Table};
+use crate::params::{AnyKey, Choice, Fault, Key, Kind, Table};
 use crate::spectrum::Spectrum;
 
 /// What is between the centres of pixels.
@@ -251,7 +251,7 @@ impl Choice for Values {
     ];
 }
 
-const FILE: Key<PathBuf> = Key::new("file", "path of a PNG, JPEG, EXR or PFM file");
+static FILE: Key<PathBuf> = Key::new("file", "path of a PNG, JPEG, EXR or PFM file");
 const VALUES: Key<Values> =
     Key::new("values", "colours, or numbers of one band").default(Values::Colors);
 const CURVE: Key<Option<Curve>> = Key::optional(
@@ -269,12 +269,11 @@ const MINIFICATION: Key<Minification> = Key::new(
 .default(Minification::None);
 
 /// `type = "image"`
-pub(super) const KIND: Kind<Read> = Kind {
-    name: "image",
-    meaning: "An image file",
-    keys: mapping::with_keys!(&FILE, &VALUES, &CURVE, &WRAP, &MAGNIFICATION, &MINIFICATION),
-    read,
-};
+const KEYS: [&dyn AnyKey; 12] =
+    mapping::with_keys([&FILE, &VALUES, &CURVE, &WRAP, &MAGNIFICATION, &MINIFICATION]);
+
+pub(super) const KIND: Kind<Read> =
+    Kind { name: "image", meaning: "An image file", keys: &KEYS, read };
 
 fn read(table: &Table, textures: &Textures) -> Result<AnyTexture, Fault> {
     let (file, values) = (table.get(&FILE)?, table.get(&VALUES)?);

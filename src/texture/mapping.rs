@@ -185,16 +185,20 @@ const OFFSET: Key<[f32; 2]> =
     Key::new("offset", "added to the scaled, rotated coordinates").default([0.0; 2]);
 
 /// The keys of a mapping.
-pub(super) const KEYS: [&dyn AnyKey; 6] = [&PROJECTION, &CENTER, &TURN, &SCALE, &ROTATE, &OFFSET];
+const KEYS: [&dyn AnyKey; 6] = [&PROJECTION, &CENTER, &TURN, &SCALE, &ROTATE, &OFFSET];
 
-/// The keys of a kind and those of a mapping.
-macro_rules! with_keys {
-    ($($own:expr),*) => {{
-        use $crate::texture::mapping::KEYS;
-        &[$($own,)* KEYS[0], KEYS[1], KEYS[2], KEYS[3], KEYS[4], KEYS[5]]
-    }};
+/// The keys of a kind and those of a mapping: `OWN` and six more.
+pub(super) const fn with_keys<const OWN: usize, const ALL: usize>(
+    own: [&'static dyn AnyKey; OWN],
+) -> [&'static dyn AnyKey; ALL] {
+    assert!(ALL == OWN + KEYS.len());
+    let (mut keys, mut i): ([&dyn AnyKey; ALL], usize) = ([KEYS[0]; ALL], 0);
+    while i < ALL {
+        keys[i] = if i < OWN { own[i] } else { KEYS[i - OWN] };
+        i += 1;
+    }
+    keys
 }
-pub(super) use with_keys;
 
 pub(super) fn read(table: &Table) -> Result<Mapping, Fault> {
     let turn = table.get(&TURN)?.map_or(Quat::IDENTITY, Quat::from);
