@@ -179,7 +179,10 @@ impl<'a, L: Lanes> Packet<'a, L> {
         while rays != 0 {
             let i = rays.trailing_zeros();
             rays &= rays - 1;
-            if let Some(hit) = intersect_out_of_line(&self.ray(i), leaf, lane) {
+            let ray = &self.ray(i);
+            let sheared = ShearedRay::new(ray);
+            if let Some(hit) = intersect_triangle(World, &sheared, leaf, lane, ray.t_min, ray.t_max)
+            {
                 all |= Mask::from(self.set_hit(i, hit.t, hit.b, id)) << i;
             }
         }
@@ -252,11 +255,4 @@ impl<'a, L: Lanes> Packet<'a, L> {
 #[inline(always)]
 pub fn lane3<L: Lanes>([x, y, z]: [L; 3], lane: u32) -> [f32; 3] {
     [x.lane(lane), y.lane(lane), z.lane(lane)]
-}
-
-/// The scalar test, out of line so that it does not spill the vectors of the caller.
-#[cold]
-#[inline(never)]
-fn intersect_out_of_line(ray: &Ray, leaf: Leaf, lane: u32) -> Option<TriangleHit> {
-    intersect_triangle(World, &ShearedRay::new(ray), leaf, lane, ray.t_min, ray.t_max)
 }
