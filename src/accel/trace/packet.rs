@@ -5,7 +5,7 @@ use super::space::World;
 use crate::accel::tree::{Bvh, Leaf, Node};
 use crate::geometry::Ray;
 use crate::interaction::Hit;
-use crate::shape::{Crossing, Edges, Reach, ShearedRay, TriangleHit, longest_axis};
+use crate::shape::{Crossing, Edges, Reach, ShearedRay, longest_axis};
 use crate::simd::{ARITY, Block, LANES, LaneMask, Lanes, Mask, splat3};
 
 /// Sixteen rays whose directions have the same largest axis, with the same sign, and the nearest hit of each so far.
