@@ -10,7 +10,7 @@ use crate::geometry::float::gamma;
 use crate::simd::{Float, LaneMask, splat3};
 
 /// The relative error that t may have, of what is no needle seen from the ray: see [`Crossing::is_sure`].
-pub(crate) const T_TOLERANCE: f32 = 1.0 / (1 << 14) as f32;
+pub(crate) const T_TOLERANCE: f32 = 1.0 / (1 << 11) as f32;
 
 /// A ray prepared for the triangle test: the permutation of axes and the shear that turn its
 /// direction into +z.

@@ -85,9 +85,8 @@ pub fn pick3<V: Vector + Pick<W>, W: Vector>(x: V, [a, b, c]: [W::Indices; 3]) -
     [x.pick(a), x.pick(b), x.pick(c)]
 }
 
-/// The scalar test of one triangle of a leaf. Out of line, so that the vectors of the caller are kept where it is not called.
-#[cold]
-#[inline(never)]
+/// The scalar test of one triangle of a leaf.
+#[inline(always)]
 pub fn intersect_triangle<S: Space>(
     space: S,
     sheared: &ShearedRay,

@@ -5,7 +5,7 @@ use super::space::World;
 use crate::accel::tree::{Bvh, Leaf, Node};
 use crate::geometry::Ray;
 use crate::interaction::Hit;
-use crate::shape::{Crossing, Edges, Reach, ShearedRay, longest_axis};
+use crate::shape::{Crossing, Edges, Reach, ShearedRay, TriangleHit, longest_axis};
 use crate::simd::{ARITY, Block, LANES, LaneMask, Lanes, Mask, splat3};
 
 /// Sixteen rays whose directions have the same largest axis, with the same sign, and the nearest hit of each so far.
@@ -179,10 +179,7 @@ impl<'a, L: Lanes> Packet<'a, L> {
         while rays != 0 {
             let i = rays.trailing_zeros();
             rays &= rays - 1;
-            let ray = &self.ray(i);
-            let sheared = ShearedRay::new(ray);
-            if let Some(hit) = intersect_triangle(World, &sheared, leaf, lane, ray.t_min, ray.t_max)
-            {
+            if let Some(hit) = intersect_out_of_line(&self.ray(i), leaf, lane) {
                 all |= Mask::from(self.set_hit(i, hit.t, hit.b, id)) << i;
             }
         }
@@ -255,4 +252,11 @@ impl<'a, L: Lanes> Packet<'a, L> {
 #[inline(always)]
 pub fn lane3<L: Lanes>([x, y, z]: [L; 3], lane: u32) -> [f32; 3] {
     [x.lane(lane), y.lane(lane), z.lane(lane)]
+}
+
+/// The scalar test, out of line so that it does not spill the vectors of the caller.
+#[cold]
+#[inline(never)]
+fn intersect_out_of_line(ray: &Ray, leaf: Leaf, lane: u32) -> Option<TriangleHit> {
+    intersect_triangle(World, &ShearedRay::new(ray), leaf, lane, ray.t_min, ray.t_max)
 }

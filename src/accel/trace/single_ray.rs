@@ -1,7 +1,7 @@
 //! One ray through the tree: [`ClosestHit`] and [`AnyHit`].
 //!
-//! All triangles of a leaf are tested at once. Where vectors can't tell what the scalar test of [`crate::shape::ShearedRay`]
-//! would, it is asked.
+//! All triangles of a leaf are tested at once. If for one of them vectors can't tell what the scalar test of
+//! [`crate::shape::ShearedRay`] would, the ray is traced once more with the scalar test for every candidate.
 
 use super::leaf_test::{Candidates, candidates, intersect_triangle};
 use super::space::Space;
@@ -35,6 +35,12 @@ pub struct ClosestHit<'a, S> {
 /// Whether a ray hits anything in a space, from some place of the tree on.
 pub struct AnyHit<S>(pub S, pub Start);
 
+/// As [`ClosestHit`], with the scalar test for every candidate. A function of its own, since it hardly ever runs.
+struct ClosestHitExact<'a, S>(ClosestHit<'a, S>);
+
+/// As [`AnyHit`], with the scalar test for every candidate.
+struct AnyHitExact<S>(S, Start);
+
 impl<S: Space> Kernel for ClosestHit<'_, S> {
     type Input = Ray;
     type Data = Bvh;
@@ -42,9 +48,23 @@ impl<S: Space> Kernel for ClosestHit<'_, S> {
     type Output = ();
 
     #[inline(always)]
-    fn run<L: Lanes>(self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) {
-        let Self { space, start, hit } = self;
-        closest::<L, S>(space, ray, bvh, stack, start).tell(hit);
+    fn run<L: Lanes>(mut self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) {
+        if let Err(Undecided) = closest::<L, S, false>(&mut self, ray, bvh, stack) {
+            L::call(bvh, stack, ray, ClosestHitExact(self));
+        }
+    }
+}
+
+impl<S: Space> Kernel for ClosestHitExact<'_, S> {
+    type Input = Ray;
+    type Data = Bvh;
+    type Scratch = Stack;
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(mut self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) {
+        // Never undecided.
+        let _ = closest::<L, S, true>(&mut self.0, ray, bvh, stack);
     }
 }
 
@@ -56,26 +76,44 @@ impl<S: Space> Kernel for AnyHit<S> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) -> bool {
-        any::<L, S>(self.0, ray, bvh, stack, self.1)
+        match any::<L, S, false>(self.0, ray, bvh, stack, self.1) {
+            Ok(found) => found,
+            Err(Undecided) => L::call(bvh, stack, ray, AnyHitExact(self.0, self.1)),
+        }
     }
 }
 
-/// The closest hit below a node.
+impl<S: Space> Kernel for AnyHitExact<S> {
+    type Input = Ray;
+    type Data = Bvh;
+    type Scratch = Stack;
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, ray: &Ray, bvh: &Bvh, stack: &mut Stack) -> bool {
+        any::<L, S, true>(self.0, ray, bvh, stack, self.1).unwrap_or(false)
+    }
+}
+
+/// Only the scalar test can tell.
+struct Undecided;
+
+/// The closest hit below a node. With `EXACT`, every candidate takes the scalar test.
 #[inline(always)]
-fn closest<L: Lanes, S: Space>(
-    space: S,
+fn closest<L: Lanes, S: Space, const EXACT: bool>(
+    ClosestHit { space, start, hit }: &mut ClosestHit<S>,
     ray: &Ray,
     bvh: &Bvh,
     stack: &mut Stack,
-    start: Start,
-) -> Nearest {
+) -> Result<(), Undecided> {
+    let (space, start) = (*space, *start);
     let sheared = ShearedRay::new(ray);
-    let mut nearest =
-        Nearest { t: ray.t_max, t_min: ray.t_min, id: NONE, edges: [0.0; 3], determinant: 1.0 };
     if bvh.nodes.is_empty() || !is_valid(ray, &sheared) {
-        return nearest;
+        return Ok(());
     }
     let mut slabs = space.slabs::<L::Boxes>(ray, bvh);
+    let mut nearest =
+        Nearest { t: ray.t_max, t_min: ray.t_min, id: NONE, edges: [0.0; 3], determinant: 1.0 };
     let mut stack_len = start.stack_len;
     let mut child = start.node;
     'leaves: loop {
@@ -94,7 +132,8 @@ fn closest<L: Lanes, S: Space>(
             }
         }
         let leaf = bvh.leaf(child);
-        if nearest.update::<L, S>(space, &sheared, leaf) {
+        let is_nearer = nearest.update::<L, S, EXACT>(space, &sheared, leaf)?;
+        if is_nearer {
             slabs.shorten(nearest.t);
         }
         match stack.pop(&mut stack_len, start.stack_len, slabs.end) {
@@ -102,21 +141,26 @@ fn closest<L: Lanes, S: Space>(
             None => break,
         }
     }
-    nearest
+    if nearest.id != NONE {
+        let [a, b, c] = nearest.edges;
+        let sum = nearest.determinant;
+        (hit.t, hit.b, hit.triangle) = (nearest.t, [a / sum, b / sum, c / sum], nearest.id);
+    }
+    Ok(())
 }
 
-/// Whether the ray hits anything below a node.
+/// Whether the ray hits anything below a node. With `EXACT`, every candidate takes the scalar test.
 #[inline(always)]
-fn any<L: Lanes, S: Space>(
+fn any<L: Lanes, S: Space, const EXACT: bool>(
     space: S,
     ray: &Ray,
     bvh: &Bvh,
     stack: &mut Stack,
     start: Start,
-) -> bool {
+) -> Result<bool, Undecided> {
     let sheared = ShearedRay::new(ray);
     if bvh.nodes.is_empty() || !is_valid(ray, &sheared) {
-        return false;
+        return Ok(false);
     }
     let slabs = space.slabs::<L::Boxes>(ray, bvh);
     let mut stack_len = start.stack_len;
@@ -136,39 +180,48 @@ fn any<L: Lanes, S: Space>(
             } else if let Some(next) = stack.pop_any(&mut stack_len, start.stack_len) {
                 child = next;
             } else {
-                return false;
+                return Ok(false);
             }
         }
         let leaf = bvh.leaf(child);
-        if is_any_hit::<L, S>(space, &sheared, leaf, ray) {
-            return true;
+        let is_hit = is_any_hit::<L, S, EXACT>(space, &sheared, leaf, ray)?;
+        if is_hit {
+            return Ok(true);
         }
         match stack.pop_any(&mut stack_len, start.stack_len) {
             Some(next) => child = next,
-            None => return false,
+            None => return Ok(false),
         }
     }
 }
 
 /// Whether the ray hits a triangle of a leaf.
 #[inline(always)]
-fn is_any_hit<L: Lanes, S: Space>(space: S, sheared: &ShearedRay, leaf: Leaf, ray: &Ray) -> bool {
+fn is_any_hit<L: Lanes, S: Space, const EXACT: bool>(
+    space: S,
+    sheared: &ShearedRay,
+    leaf: Leaf,
+    ray: &Ray,
+) -> Result<bool, Undecided> {
     let (t_min, t_max) = (ray.t_min, ray.t_max);
     for first in (0..leaf.triangles()).step_by(L::Narrow::LANES) {
         let found = candidates::<L, S>(space, sheared, leaf, first, t_min, t_max);
         let Some(Candidates { lanes, mut undecided, .. }) = found else { continue };
         if lanes & !undecided != 0 {
-            return true;
+            return Ok(true);
+        }
+        if !EXACT && undecided != 0 {
+            return Err(Undecided);
         }
         while undecided != 0 {
             let lane = first as u32 + undecided.trailing_zeros();
             undecided &= undecided - 1;
             if intersect_triangle(space, sheared, leaf, lane, t_min, t_max).is_some() {
-                return true;
+                return Ok(true);
             }
         }
     }
-    false
+    Ok(false)
 }
 
 /// The id of no triangle.
@@ -187,17 +240,25 @@ struct Nearest {
 impl Nearest {
     /// Tests a leaf; returns whether it has a nearer hit.
     #[inline(always)]
-    fn update<L: Lanes, S: Space>(&mut self, space: S, sheared: &ShearedRay, leaf: Leaf) -> bool {
+    fn update<L: Lanes, S: Space, const EXACT: bool>(
+        &mut self,
+        space: S,
+        sheared: &ShearedRay,
+        leaf: Leaf,
+    ) -> Result<bool, Undecided> {
         let mut is_nearer = false;
         for first in (0..leaf.triangles()).step_by(L::Narrow::LANES) {
             let found = candidates::<L, S>(space, sheared, leaf, first, self.t_min, self.t);
             let Some(Candidates { mut lanes, undecided, crossing }) = found else { continue };
+            if !EXACT && undecided != 0 {
+                return Err(Undecided);
+            }
             while lanes != 0 {
                 let in_vector = lanes.trailing_zeros();
                 let lane = first as u32 + in_vector;
                 lanes &= lanes - 1;
                 let id = leaf.id(lane);
-                if undecided >> in_vector & 1 == 1 {
+                if EXACT && undecided >> in_vector & 1 == 1 {
                     let hit = intersect_triangle(space, sheared, leaf, lane, self.t_min, self.t);
                     let Some(TriangleHit { t, b }) = hit else { continue };
                     is_nearer |= self.take(t, id, b, 1.0);
@@ -210,16 +271,7 @@ impl Nearest {
                 }
             }
         }
-        is_nearer
-    }
-
-    /// Writes the hit, if there is one: its triangle by its id, its shape as it is.
-    #[inline(always)]
-    fn tell(&self, hit: &mut Hit) {
-        if self.id != NONE {
-            let ([a, b, c], sum) = (self.edges, self.determinant);
-            (hit.t, hit.b, hit.triangle) = (self.t, [a / sum, b / sum, c / sum], self.id);
-        }
+        Ok(is_nearer)
     }
 
     /// Takes a hit if it is nearer. Of two at the same distance the one with the lower id counts.

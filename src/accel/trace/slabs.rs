@@ -4,7 +4,6 @@ use glam::Vec3A;
 
 use crate::accel::tree::Node;
 use crate::geometry::Ray;
-use crate::shape::T_TOLERANCE;
 use crate::simd::{Eight, splat3};
 
 /// A ray prepared for boxes.
@@ -26,9 +25,9 @@ pub struct Slabs<B> {
     pub end: f32,
 }
 
-/// Factor by which a ray's range is enlarged at both ends, for the error of the t that the triangle test tells, which is below
-/// [`T_TOLERANCE`], and for the rounding of distances.
-const TOLERANCE: f32 = 1.0 + 1.25 * T_TOLERANCE;
+/// Factor by which a ray's range is enlarged at both ends, for the rounding of the t that the triangle test tells: twice
+/// [`crate::shape::T_TOLERANCE`].
+const TOLERANCE: f32 = 1.0 + 2.0 * crate::shape::T_TOLERANCE;
 
 /// A direction is taken to be at least so long along each axis, in lengths of its longest coordinate.
 const LEAST: f32 = 1.0 / (1 << 26) as f32;
