@@ -2,7 +2,7 @@
 //!
 //! [`build`] is the way through: [`partition`] sorts the triangles into parts, a [`treelet`] is built over each part,
 //! [`top_level`] puts one tree above all treelets. A treelet is a binary tree ([`binary_tree`]) of primitives
-//! ([`duplicates`]), for which [`collapse`] chooses the sixteen-wide nodes and [`layout`] writes them. Knows `simd/` (the
+//! ([`duplicates`]), for which [`collapse`] chooses the eight-wide nodes and [`layout`] writes them. Knows `simd/` (the
 //! number of lanes alone) and `tree/`, never `trace/`.
 
 mod assemble;

@@ -59,7 +59,8 @@ impl<B: Eight> Slabs<B> {
         let (mut near, mut far) = (-(o + padding) * inverse, -(o - padding) * inverse);
         // Where products might not be finite, the ray enters all boxes.
         let largest = Vec3A::splat(largest_coordinate) * inverse.abs() + near.abs().max(far.abs());
-        if !(largest.max_element() < 0.5 * f32::MAX) {
+        let is_finite = largest.max_element() < 0.5 * f32::MAX;
+        if !is_finite {
             inverse = Vec3A::ZERO;
             (near, far) = (Vec3A::NEG_INFINITY, Vec3A::INFINITY);
         }
