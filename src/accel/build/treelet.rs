@@ -17,7 +17,7 @@ use crate::simd::{ARITY, LANES};
 /// that a tree can have. So at least three levels are left to the heuristic.
 const TREELET_LEVELS: usize = MAX_DEPTH - TOP_LEVELS;
 const _: () =
-    assert!(TreeletContents::GUARANTEED * ARITY.pow(TREELET_LEVELS as u32 - 3) >= MAX_TRIANGLES);
+    assert!(ARITY.ilog2() as usize * (TREELET_LEVELS - 3) >= MAX_TRIANGLES.ilog2() as usize);
 
 /// The tree over one part of the triangles, in its final layout.
 pub struct Treelet {
