@@ -18,7 +18,7 @@ pub trait Eight: Block {
 
     /// The lanes of a mask next to each other, those with the largest key first: of `ids`, and of `keys`; and in which lane of `ids`
     /// the last of them was, which is known sooner. What follows is unspecified, and so is the order of keys that differ by less
-    /// than 2⁻²⁰ of themselves. In lanes of the mask, of which there must be one at least, keys are above -∞, not NaN.
+    /// than 2⁻²⁰ of themselves, and of ∞ and the largest number. In lanes of the mask, of which there must be one at least, keys are above -∞, not NaN.
     fn largest_first(mask: Self::Mask, ids: Self, keys: Self) -> ([Self; 2], usize);
 }
 

@@ -1,6 +1,6 @@
 //! [`Float`]: what formulas are generic over. [`Block`]: what loops over blocks of numbers need besides.
 //!
-//! Each operation is the IEEE 754 operation in each lane, and no multiply-add is fused. So a formula gives the same bits for
+//! Each operation is the IEEE 754 operation in each lane, and no multiply-add is fused, but for the distances to boxes (`Eight::mul_add`), which are padded. So a formula gives the same bits for
 //! one f32 and in each lane of a vector.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, SQRT_2};

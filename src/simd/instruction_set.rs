@@ -83,7 +83,7 @@ impl InstructionSet {
     pub const PORTABLE: Self = Self(Known::Portable);
 
     /// Those that this processor has, the fastest last: [`PORTABLE`](Self::PORTABLE); `avx2`, which is AVX2 with
-    /// BMI1, BMI2, LZCNT and POPCNT; `avx512`, which adds AVX-512 F, VL, BW and DQ.
+    /// FMA, BMI1, BMI2, LZCNT and POPCNT; `avx512`, which adds AVX-512 F, VL, BW and DQ.
     pub fn available() -> Vec<Self> {
         Known::ALL.into_iter().filter(|set| set.is_available()).map(Self).collect()
     }
@@ -99,7 +99,7 @@ impl InstructionSet {
         self.0.name()
     }
 
-    /// Lanes of the vector that small leaves are tested with ([`Lanes::Narrow`]).
+    /// Lanes of the vector that the triangles of a leaf are tested with ([`Lanes::Narrow`]).
     pub(crate) fn leaf_lanes(self) -> usize {
         match self.0 {
             Known::Avx2 => 8,

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, Vec2};
 
-use super::{Bits, Block, BlockKernel, Float, InstructionSet, Kernel, LaneMask, Lanes};
+use super::{Bits, Block, BlockKernel, Eight, Float, InstructionSet, Kernel, LaneMask, Lanes};
 
 /// Sixteen pairs of numbers at a time, through every operation.
 struct Everything<'a> {
@@ -199,5 +199,61 @@ fn angles_are_exact_to_rounding() {
         let truth = y.atan2(x);
         let error = (found - truth).abs();
         assert!(error <= 3e-7_f64.min(3e-7 * truth.abs()), "{v}: {found}, expected {truth}");
+    }
+}
+
+/// What an [`Eight`] makes of a mask and of keys, with the lanes' numbers as ids.
+struct Sorted(u32, [f32; 8]);
+
+impl Kernel for Sorted {
+    type Input = ();
+    type Data = ();
+    type Scratch = ();
+    /// Ids and keys, largest first, the lane of the last, and the ids compressed.
+    type Output = ([f32; 8], [f32; 8], usize, [f32; 8]);
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, (): &(), (): &(), (): &mut ()) -> Self::Output {
+        let ids = L::Boxes::load(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+        let mask = <L::Boxes as Float>::Mask::from_bits(self.0);
+        let ([a, b], last) = L::Boxes::largest_first(mask, ids, L::Boxes::load(&self.1));
+        let mut out = ([0.0; 8], [0.0; 8], last, [0.0; 8]);
+        a.store(&mut out.0);
+        b.store(&mut out.1);
+        ids.compress(self.0).store(&mut out.3);
+        out
+    }
+}
+
+/// All masks, with keys that are equal, zero, negative or infinite too.
+#[test]
+fn eights_are_sorted_and_compressed() {
+    let keys = [
+        [1.0, 5.0, 3.0, 2.0, 8.0, 7.0, 6.0, 4.0],
+        [2.0, 2.0, 0.0, 0.0, 2.0, 1.0, 1.0, 0.0],
+        [-1.0, 0.5, f32::INFINITY, -0.0, f32::MIN, 1e-40, f32::MAX, -7.0],
+    ];
+    for set in InstructionSet::available() {
+        for mask in 1..256_u32 {
+            for keys in keys {
+                let (ids, sorted, last, compressed) =
+                    set.run(&(), &mut (), &(), Sorted(mask, keys));
+                let lanes: Vec<f32> =
+                    (0..8).filter(|lane| mask >> lane & 1 == 1).map(|lane| lane as f32).collect();
+                let len = lanes.len();
+                assert_eq!(compressed[..len], lanes, "{set}, {mask:b}");
+                let mut found = ids[..len].to_vec();
+                assert_eq!(found[len - 1] as usize, last, "{set}, {mask:b}: {ids:?}");
+                for (id, key) in found.iter().zip(sorted) {
+                    assert_eq!(keys[*id as usize], key, "{set}, {mask:b}");
+                }
+                let finite = sorted.map(|key| key.min(f32::MAX));
+                let is_sorted =
+                    finite[..len].windows(2).all(|pair| pair[0] >= pair[1] - 1e-6 * pair[1].abs());
+                assert!(is_sorted, "{set}, {mask:b}: {sorted:?}");
+                found.sort_by(f32::total_cmp);
+                assert_eq!(found, lanes, "{set}, {mask:b}");
+            }
+        }
     }
 }

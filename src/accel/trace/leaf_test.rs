@@ -65,7 +65,7 @@ fn among<V: Vector + Pick<W>, W: Vector, S: Space>(
     let z = pick3(z, corners);
     let crossing = Crossing::new(edges, z, W::splat(sheared.shear[2]));
     let on_edge = on_edge.bits() & lanes;
-    // Of triangles that a ray leaves or has left behind there is no more to know.
+    // No hit is where t is not positive: a triangle that the ray leaves, or one behind it.
     let lanes = (crossing.t.gt(W::splat(0.0)).bits() & lanes) | on_edge;
     if lanes == 0 {
         return None;

@@ -48,6 +48,10 @@ pub fn bits(hit: &Hit) -> (u32, [u32; 3], u32, u32) {
 pub fn assert_single(accel: &Accel, ray: &Ray, truth: &Hit, what: &str) {
     let hit = accel.intersect1(ray);
     assert_eq!(bits(&hit), bits(truth), "{what}: {ray:?}: {hit:?}, expected {truth:?}");
+    let mut tracer = accel.tracer();
+    let (traced, occluded) = (tracer.intersect1(ray), tracer.occluded1(ray));
+    assert_eq!(bits(&traced), bits(truth), "{what}: {ray:?}: by a tracer");
+    assert_eq!(occluded, truth.is_hit(), "{what}: {ray:?}: occluded1 of a tracer");
     assert_eq!(accel.occluded1(ray), truth.is_hit(), "{what}: {ray:?}: occluded1, {truth:?}");
 }
 
